@@ -248,7 +248,7 @@ fn read_frfs(
                 simulated = true;
                 run
             }
-            None => measured::read_within(path, limits())?,
+            None => measured::read_at_rate(path, limits(), rate)?,
         };
         left_out.extend(file.left_out_text().map(|text| format!("{}: {text}", path.display())));
         let notes = std::mem::take(&mut file.notes);

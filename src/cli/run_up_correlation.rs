@@ -48,7 +48,7 @@ pub fn read(
     model: &Model,
     terminal: &Terminal,
 ) -> Result<Result<MeasuredRunUp, String>, Failure> {
-    let mut file = File::read(path)?;
+    let mut file = File::read(path, None)?;
     let mut findings = InputProblems::default();
     let mapping = args.measured.mapping.as_ref().map(|path| mapping::read(path)).transpose()?;
     if let Some(rate) = mapping.as_ref().and_then(mapping::Mapping::rate) {

@@ -27,6 +27,7 @@
 //! | [`cepstrum`] | real and power cepstrum, liftering |
 //! | [`cyclic`] | cyclic spectral coherence (cyclostationarity) |
 //! | [`tacho`] | shaft angle from tachometer (keyphasor) pulses |
+//! | [`tacho_jitter`] | what the jitter of the pulses leaves of a strong order beside it |
 //! | [`tacholess`] | tacholess speed estimation: shaft angle from an order line of the record |
 //! | [`synchronous`] | time-synchronous average (TSA) |
 //! | [`trend`] | trend over several records: Mann-Kendall test, Theil-Sen slope |
@@ -67,6 +68,7 @@ pub mod statistics;
 pub mod stft;
 pub mod synchronous;
 pub mod tacho;
+pub mod tacho_jitter;
 pub mod tacholess;
 pub mod trend;
 pub mod vold_kalman;

@@ -24,7 +24,7 @@ pub fn second_record(
         Failure::Input(text) => Failure::Input(format!("{}: {text}", path.display())),
         other => other,
     };
-    let file = File::read(path)?;
+    let file = File::read(path, args.compare_rate.as_deref())?;
     warnings.extend(file.measured.left_out_text().map(|text| format!("{}: {text}", path.display())));
     let mut findings = InputProblems::default();
     let names: Vec<String> = args.compare_channel.iter().cloned().collect();

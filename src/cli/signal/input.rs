@@ -113,9 +113,14 @@ pub struct File {
 }
 
 impl File {
-    pub fn read(path: &Path) -> Result<File, Failure> {
+    /// Reads a file; the rate of a flag holds where the file states two that differ.
+    pub fn read(path: &Path, rate: Option<&str>) -> Result<File, Failure> {
+        // A rate that is none is reported with the other problems of the flags.
+        let given_rate = rate
+            .and_then(|text| units::parse(text, FREQUENCY).ok())
+            .filter(|rate| *rate > 0.0 && rate.is_finite());
         let path = if path.is_dir() { newest_results(path) } else { path.to_path_buf() };
-        let measured = measured::read_within(&path, limits())?;
+        let measured = measured::read_at_rate(&path, limits(), given_rate)?;
         let stored_run =
             path.file_name().is_some_and(|name| name == store::FILE || name == store::UNFINISHED);
         let named = if stored_run { path.parent().unwrap_or(&path) } else { &path };

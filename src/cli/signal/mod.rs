@@ -42,7 +42,7 @@ const RESULTS: &str = "signal.h5";
 
 pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let start = Instant::now();
-    let file = File::read(&args.file)?;
+    let file = File::read(&args.file, args.record.rate.as_deref())?;
     if let Some(left_out) = file.measured.left_out_text() {
         terminal.warn_of(Code::LeftOut, left_out);
     }
@@ -114,6 +114,11 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     findings.coded.into_iter().for_each(|(code, text)| terminal.warn_of(code, text));
     let speeds = results.iter().filter_map(|result| record_speed::warning(result, settings.speed_range));
     speeds.for_each(|text| terminal.warn_of(Code::ShaftSpeedNotFound, text));
+
+    results
+        .iter()
+        .flat_map(orders::jitter_warnings)
+        .for_each(|text| terminal.warn_of(Code::TachoJitter, text));
 
     let mut document = signal_to_json(&results, other.as_ref().map(|(other, _)| other));
     document["command"] = json!("signal");

@@ -1,7 +1,9 @@
 //! Orders asked for by number or by name: 7, 1x, BPFO, "2 BPFO".
 
-use rotordyn::results::{BearingWithOrders, OrderLine};
+use rotordyn::results::{BearingWithOrders, OrderLine, SignalResult};
+use rotordyn::signal::tacho_jitter::JitterLeak;
 
+use super::super::terminal::number;
 use super::input::InputProblems;
 
 /// The order lines of the words; problems for those that are none.
@@ -19,6 +21,23 @@ pub fn lines(
         }
     }
     lines
+}
+
+/// A warning for every tracked order that has a part of a stronger one by the tacho's jitter.
+pub fn jitter_warnings(result: &SignalResult) -> Vec<String> {
+    let Some(found) = &result.orders else { return Vec::new() };
+    let label = |track: usize| &found.cuts[track].0.label;
+    let warning = |leak: &JitterLeak| {
+        format!(
+            "{}: of the amplitude {} read for {} about {} (RMS over the run) is of {}: the jitter of the tacho pulses modulates it",
+            result.channel,
+            number(leak.amplitude, 3),
+            label(leak.track),
+            number(leak.leak, 2),
+            label(leak.neighbour)
+        )
+    };
+    found.jitter_leaks.iter().map(warning).collect()
 }
 
 fn line(word: &str, bearing: Option<&BearingWithOrders>) -> Result<OrderLine, String> {

@@ -136,7 +136,7 @@ fn tacho(
     let (record, source) = match own {
         Some(record) => (record, format!("pulses of `{name}`")),
         None if Path::new(name).exists() => {
-            other = match File::read(Path::new(name)) {
+            other = match File::read(Path::new(name), rate) {
                 Ok(other) => other,
                 Err(failure) => {
                     findings.problem(format!("--tacho: {}", failure.message()));

@@ -142,7 +142,7 @@ impl Job<'_> {
     /// Reads the file of a record.
     fn open(&self, source: &Source, speed: Option<f64>) -> Result<Opened, Failure> {
         let args = self.args;
-        let file = File::read(&source.path)?;
+        let file = File::read(&source.path, args.record.rate.as_deref())?;
         let mut findings = InputProblems::default();
         let tacho: Vec<&str> = args.shaft.tacho.as_deref().into_iter().collect();
         let names: Vec<String> = args.channel.iter().map(|name| channel_name(&file, name)).collect();

@@ -195,6 +195,10 @@ codes! {
         "Two orders that the Vold-Kalman filter tracks lie in one pass band: their amplitudes are told apart only as far as \
          they change more slowly than the two beat.",
         "narrow study.orders.bandwidth, as far as the amplitudes change slowly enough for it, or track one of the two";
+    TachoJitter, "tacho-jitter", Caution,
+        "A tracked order lies beside a stronger one which the jitter of the tacho pulses modulates: part of what is read there is \
+         the stronger order's.",
+        "sample the tacho channel faster, use more pulses per revolution, or narrow --bandwidth";
     FreeBalls, "free-balls", Caution,
         "A study of balls and cage as free bodies, or their comparison with a kinematic cage, could not be computed.",
         "see the text of the warning";

@@ -22,19 +22,20 @@ use crate::measured::content_problem::ContentProblem;
 use rotordyn_signal::Complex;
 use rotordyn_signal::record::{Axis, Kind, MeasuredData, Record, Values};
 
-/// Reads a table, or a LabVIEW measurement file.
+/// Reads a table, or a LabVIEW measurement file; `given_rate` \[Hz\] holds where two sampling rates are stated.
 ///
 /// # Errors
 /// The file cannot be read, contains no numbers, a line has another number of cells, a cell is not a number,
 /// an axis does not increase, dates may be read in two ways, two sampling rates are stated, or the contents exceed the
 /// budget.
-pub fn read(path: &Path, limits: &Limits) -> Result<(MeasuredData, Budget), Error> {
+pub fn read(path: &Path, limits: &Limits, given_rate: Option<f64>) -> Result<(MeasuredData, Budget), Error> {
     let (bytes, budget) = budget::read_file(path, limits)?;
     let mut notes = Vec::new();
     let text = decoded(bytes, &budget, &mut notes).map_err(|exceeded| exceeded.of_file(path))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let text = text.trim_start_matches('\u{feff}');
-    let found = if lvm::is_lvm(text) { lvm::parse(text, &budget) } else { parse(text, &stem, &budget) };
+    let found =
+        if lvm::is_lvm(text) { lvm::parse(text, &budget) } else { parse(text, &stem, &budget, given_rate) };
     let mut found = found.map_err(|problem| problem.of_file(path))?;
     found.notes.splice(0..0, notes);
     Ok((found, budget))
@@ -65,7 +66,12 @@ fn is_bare(line: &str) -> bool {
         || line.starts_with("sep=")
 }
 
-fn parse(text: &str, stem: &str, budget: &Budget) -> Result<MeasuredData, ContentProblem> {
+fn parse(
+    text: &str,
+    stem: &str,
+    budget: &Budget,
+    given_rate: Option<f64>,
+) -> Result<MeasuredData, ContentProblem> {
     let lines = text.lines().enumerate().map(|(k, line)| (k + 1, line)).filter(|(_, l)| !l.trim().is_empty());
     // The lines before the numbers: rates, names and units are among them.
     let mut before = Vec::new();
@@ -155,7 +161,7 @@ fn parse(text: &str, stem: &str, budget: &Budget) -> Result<MeasuredData, Conten
         date = style.split(first)[..style.stamps].join(" ");
         times = Some(seconds(&stamps)?);
     }
-    let source = table_axis::Source { settings, times, nameless };
+    let source = table_axis::Source { settings, times, nameless, given_rate };
     let axis = table_axis::of_table(&mut columns, source, budget, &mut out)?;
     records(columns, &axis, &mut out);
     out.records.iter_mut().for_each(|record| record.date.clone_from(&date));

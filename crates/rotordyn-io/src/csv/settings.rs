@@ -2,14 +2,10 @@
 
 use super::columns::column;
 use crate::measured::axis_names::{Meaning, Role, meaning};
-use crate::measured::unit_label;
+use crate::measured::stated_value::stated_value;
 
 /// Longest line that states something \[bytes\].
 const MAX_LINE: usize = 200;
-/// Labels of rates that are no units.
-const SAMPLES_PER_SECOND: [&str; 6] =
-    ["s/s", "sa/s", "samples/s", "samples/sec", "sps", "samples per second"];
-
 /// What a line states, with its name and number; `None` if nothing that is understood.
 pub(super) fn stated(line: &str) -> Option<(Meaning, String, f64)> {
     if line.len() > MAX_LINE {
@@ -20,20 +16,8 @@ pub(super) fn stated(line: &str) -> Option<(Meaning, String, f64)> {
     let (key, value) = (&line[..at], line[at + 1..].trim_matches([' ', '\t', ';', '"', '=', ':']));
     let key = column(key.trim().trim_matches('"'));
     let mut meaning = meaning(&key.name, &[Role::Rate, Role::Step, Role::Start, Role::Count])?;
-    let end = value.find(|c: char| !(c.is_ascii_digit() || "+-.,eE".contains(c))).unwrap_or(value.len());
-    let (number, unit) = number(&value[..end]).map(|n| (n, &value[end..])).or_else(|| {
-        // "5e" of "5 e..." or a comma that separates: the number ends before.
-        let end = value.find([',', ' ', ';', '\t'])?;
-        Some((number(&value[..end])?, &value[end..]))
-    })?;
-    let unit = unit.trim_matches([' ', '\t', ';', ',', '"', '[', ']', '(', ')']);
-    let si = match unit {
-        "" => key.si,
-        unit if SAMPLES_PER_SECOND.iter().any(|label| unit.eq_ignore_ascii_case(label)) => {
-            unit_label::si("Hz")
-        }
-        unit => Some(unit_label::si(unit)?),
-    };
+    let (number, own) = stated_value(value)?;
+    let si = own.or(key.si);
     if let Some(si) = si {
         if !meaning.role.takes_unit(&si.name) {
             return None;
@@ -41,13 +25,6 @@ pub(super) fn stated(line: &str) -> Option<(Meaning, String, f64)> {
         (meaning.numerator, meaning.divisor) = (si.numerator, si.divisor);
     }
     Some((meaning, key.name, number))
-}
-
-/// A number with a decimal point or comma.
-fn number(text: &str) -> Option<f64> {
-    let text = text.trim_end_matches(',');
-    let plain = if text.contains('.') { text.to_owned() } else { text.replacen(',', ".", 1) };
-    plain.parse().ok().filter(|v: &f64| v.is_finite())
 }
 
 #[cfg(test)]

@@ -14,6 +14,8 @@ pub(super) struct Source {
     pub times: Option<Vec<f64>>,
     /// Whether the columns have no names.
     pub nameless: bool,
+    /// Sampling rate that holds where the file states two \[Hz\].
+    pub given_rate: Option<f64>,
 }
 
 /// The axis of all columns.
@@ -49,7 +51,7 @@ pub(super) fn of_table(
     budget: &Budget,
     out: &mut MeasuredData,
 ) -> Result<TableAxis, ContentProblem> {
-    let mut settings = source.settings;
+    let (mut settings, source_rate) = (source.settings, source.given_rate);
     // A column that repeats the rate is no record, unless there is nothing else.
     while columns.len() > 1
         && let Some(at) = columns.iter().position(|column| column.setting().is_some())
@@ -61,8 +63,9 @@ pub(super) fn of_table(
         StatedRate::of(meaning, name, *value).map(|rate| (meaning.uncertain, rate))
     });
     let (uncertain, certain): (Vec<_>, Vec<_>) = rates.partition(|(uncertain, _)| *uncertain);
-    check_same(certain.iter().map(|(_, rate)| rate))?;
-    let rate = certain.into_iter().chain(uncertain).next();
+    let instead = one_rate(certain.iter().map(|(_, rate)| rate), source_rate, out)?;
+    let contradicted = instead.is_some();
+    let rate = instead.map(|rate| (false, rate)).or_else(|| certain.into_iter().chain(uncertain).next());
 
     let listed = match source.times {
         Some(times) => Some((AxisQuantity::Time, times, "dates".to_owned())),
@@ -92,11 +95,39 @@ pub(super) fn of_table(
         }
         (Points::Uniform { step, .. }, Some((false, rate))) if quantity == AxisQuantity::Time => {
             let source = format!("the column `{name}`");
-            check_same([&rate, &StatedRate { rate: 1.0 / step, step, source }])?;
+            let of_column = StatedRate { rate: 1.0 / step, step, source };
+            let instead = match contradicted {
+                true => Some(rate),
+                false => one_rate([&rate, &of_column], source_rate, out)?,
+            };
+            if let Some(rate) = instead {
+                let start = points.first().copied().unwrap_or(0.0);
+                return Ok(TableAxis {
+                    points: None,
+                    uniform: Some((start, rate.step)),
+                    source: rate.source,
+                });
+            }
         }
         _ => {}
     }
     Ok(TableAxis { points: Some((quantity, points)), uniform: None, source: format!("the column `{name}`") })
+}
+
+/// Refuses rates that differ, unless the user gives one: it holds instead, and a note names both.
+fn one_rate<'r>(
+    rates: impl IntoIterator<Item = &'r StatedRate>,
+    given: Option<f64>,
+    out: &mut MeasuredData,
+) -> Result<Option<StatedRate>, ContentProblem> {
+    match (check_same(rates), given) {
+        (Ok(()), _) => Ok(None),
+        (Err(problem), None) => Err(problem),
+        (Err(problem), Some(rate)) => {
+            out.notes.push(format!("{}: {} Hz is used, as given", problem.problem, six_digits(rate)));
+            Ok(Some(StatedRate::given(rate)))
+        }
+    }
 }
 
 /// The column that is the axis, in SI: by its name, or the first one of a table without names.

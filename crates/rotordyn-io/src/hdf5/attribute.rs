@@ -15,6 +15,8 @@ pub enum Attribute {
     Integer(i64),
     Texts(Vec<String>),
     Numbers(Vec<f64>),
+    /// Neither texts nor numbers, or too large: why it was not read.
+    Unread(String),
 }
 
 impl From<&str> for Attribute {
@@ -67,6 +69,7 @@ pub(super) fn set(object: &Location, name: &str, value: &Attribute) -> hdf5::Res
             list(object, name, &texts)
         }
         Attribute::Numbers(numbers) => list(object, name, numbers),
+        Attribute::Unread(why) => Err(hdf5::Error::Internal(format!("attribute {name}: {why}"))),
     }
 }
 
@@ -80,13 +83,17 @@ pub(super) fn get(object: &Location, name: &str, memory: u64) -> hdf5::Result<Op
     if !has(object, name)? {
         return Ok(None);
     }
-    value(object, name, memory).map(Some)
+    let found = value(object, name, memory);
+    found.map(Some).map_err(|why| hdf5::Error::Internal(format!("attribute {name}: {why}")))
 }
 
-/// All attributes that are texts or numbers.
+/// All attributes; those that cannot be read say why.
 pub(super) fn all(object: &Location, memory: u64) -> hdf5::Result<Vec<(String, Attribute)>> {
     let names = object.attr_names()?.into_iter();
-    let found = names.filter_map(|name| value(object, &name, memory).ok().map(|value| (name, value)));
+    let found = names.map(|name| {
+        let value = value(object, &name, memory).unwrap_or_else(|why| Attribute::Unread(why.to_string()));
+        (name, value)
+    });
     Ok(found.collect())
 }
 
@@ -96,7 +103,7 @@ fn value(object: &Location, name: &str, memory: u64) -> hdf5::Result<Attribute> 
     let count = shape.iter().try_fold(1_usize, |product, n| product.checked_mul(*n));
     // The largest element is a text of fixed length.
     if count.is_none_or(|count| (count as u64).saturating_mul(MAX_FIXED_TEXT as u64) > memory) {
-        return Err(hdf5::Error::Internal(format!("attribute {name} is too large")));
+        return Err(hdf5::Error::Internal("it is too large".into()));
     }
     let one = attribute.is_scalar();
     let texts = |found: Vec<String>| match one {
@@ -128,7 +135,7 @@ fn value(object: &Location, name: &str, memory: u64) -> hdf5::Result<Attribute> 
             Attribute::Numbers(attribute.read_raw()?)
         }
         other => {
-            return Err(hdf5::Error::Internal(format!("attribute {name} is of type {other}")));
+            return Err(hdf5::Error::Internal(format!("it is of type {other}")));
         }
     })
 }

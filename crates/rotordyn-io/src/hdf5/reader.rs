@@ -40,7 +40,7 @@ pub trait Reader: Debug + Send {
     fn links(&self, group: &str) -> Result<Links, Error>;
     /// An attribute of a data set or group; `None` if missing.
     fn attribute(&self, object: &str, name: &str) -> Result<Option<Attribute>, Error>;
-    /// All attributes of a data set or group that are texts or numbers.
+    /// All attributes of a data set or group; those that cannot be read say why.
     fn attributes(&self, object: &str) -> Result<Vec<(String, Attribute)>, Error>;
     /// A data set of numbers.
     fn read(&self, name: &str) -> Result<Array<f64>, Error>;

@@ -1,5 +1,7 @@
 //! A named array of a file.
 
+use super::stated_value::stated_value;
+use super::unit_label::SiUnit;
 use rotordyn_signal::Complex;
 
 /// An array of a file; values with the last index fastest.
@@ -54,6 +56,14 @@ impl Array {
         match &self.data {
             Data::Real(values) if values.len() == 1 => Some(values[0]),
             _ => None,
+        }
+    }
+
+    /// A number, also one that is stored as text, with the unit that the text states.
+    pub(super) fn as_stated(&self) -> Option<(f64, Option<SiUnit>)> {
+        match &self.data {
+            Data::Text(texts) if texts.len() == 1 => stated_value(&texts[0]),
+            _ => self.as_scalar().map(|value| (value, None)),
         }
     }
 

@@ -21,15 +21,19 @@ use rotordyn_signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Point
 const PROPERTY_SUFFIXES: [&str; 10] =
     ["fs", "t0", "t", "freq_hz", "unit", "kind", "dof", "rpm", "name", "is"];
 
-/// Records from arrays, by the naming rules above.
+/// Records from arrays, by the naming rules above; `given_rate` \[Hz\] holds where two are stated.
 ///
 /// # Errors
 /// More records or memory than the budget of the file has, or two sampling rates that differ for one record.
-pub(crate) fn to_records(arrays: &[Array], budget: &Budget) -> Result<MeasuredData, ContentProblem> {
+pub(crate) fn to_records(
+    arrays: &[Array],
+    budget: &Budget,
+    given_rate: Option<f64>,
+) -> Result<MeasuredData, ContentProblem> {
     if arrays.iter().any(|a| a.name == signal_calc::INFO_ARRAY) {
         return Ok(signal_calc::to_records(arrays, budget)?);
     }
-    let file = File { structures: Structures::new(arrays) };
+    let file = File { structures: Structures::new(arrays, given_rate) };
     let mut out = MeasuredData::default();
     if let Some(title) = file.structures.get_used("title").and_then(Array::as_text) {
         out.title = title.into();
@@ -42,7 +46,9 @@ pub(crate) fn to_records(arrays: &[Array], budget: &Budget) -> Result<MeasuredDa
     }
     // What no record has taken is a number of the file, or left out.
     for (place, array) in arrays.iter().enumerate() {
-        if file.structures.is_used(place) || file.is_attribute(&array.name) {
+        let is_unread_rate =
+            array.name.ends_with("_fs") && matches!(array.data, Data::Text(_)) && rate_of(array).is_none();
+        if file.structures.is_used(place) || (file.is_attribute(&array.name) && !is_unread_rate) {
             continue;
         }
         match (&array.data, array.as_scalar()) {
@@ -64,6 +70,7 @@ pub(crate) fn to_records(arrays: &[Array], budget: &Budget) -> Result<MeasuredDa
             _ => {}
         }
     }
+    out.notes.append(&mut file.structures.notes.borrow_mut());
     assign_speeds(&mut out);
     Ok(out)
 }
@@ -166,7 +173,7 @@ impl<'a> File<'a> {
         let over = |count: usize| -> Result<(Axis, String), ContentProblem> {
             let fits = |list: &&[f64]| list.len() == count;
             let stated_by = |suffix: &str| format!("`{}_{suffix}`", array.name);
-            if let Some(rate) = own("fs").and_then(Array::as_scalar).filter(|rate| *rate > 0.0) {
+            if let Some(rate) = own("fs").and_then(rate_of) {
                 let start = own("t0").and_then(Array::as_scalar).unwrap_or(0.0);
                 Ok((Axis::uniform(AxisQuantity::Time, start, 1.0 / rate), stated_by("fs")))
             } else if let Some(list) = own_list("t").filter(fits) {
@@ -236,6 +243,17 @@ struct Slice {
     axis: Axis,
     /// What states the axis.
     source: String,
+}
+
+/// Sampling rate \[Hz\] that an array states by its value, also as text; `None` if it is none.
+fn rate_of(array: &Array) -> Option<f64> {
+    let (value, si) = array.as_stated()?;
+    let rate = match si {
+        Some(si) if si.name == "Hz" => value * si.numerator / si.divisor,
+        Some(_) => return None,
+        None => value,
+    };
+    (rate > 0.0 && rate.is_finite()).then_some(rate)
 }
 
 fn index_of(mut flat: usize, shape: &[usize]) -> Vec<usize> {

@@ -147,6 +147,14 @@ pub(crate) fn meaning(name: &str, roles: &[Role]) -> Option<Meaning> {
     })
 }
 
+impl Meaning {
+    /// A value in Hz or s.
+    pub fn in_si(&self, value: f64) -> f64 {
+        // A ratio of 1 keeps the value bit by bit.
+        if self.numerator == self.divisor { value } else { value * self.numerator / self.divisor }
+    }
+}
+
 impl Role {
     /// Whether a value of this SI unit may be stated.
     pub fn takes_unit(self, unit: &str) -> bool {
@@ -179,14 +187,14 @@ pub(crate) struct StatedRate {
 }
 
 impl StatedRate {
+    /// A rate that the user gives \[Hz\].
+    pub fn given(rate: f64) -> Self {
+        Self { rate, step: 1.0 / rate, source: "the rate given".into() }
+    }
+
     /// The rate or the step that a value of a name states; `None` if it cannot be one.
     pub fn of(meaning: &Meaning, name: &str, value: f64) -> Option<Self> {
-        // A ratio of 1 keeps the value bit by bit.
-        let si = if meaning.numerator == meaning.divisor {
-            value
-        } else {
-            value * meaning.numerator / meaning.divisor
-        };
+        let si = meaning.in_si(value);
         let (rate, step) = match meaning.role {
             Role::Rate => (si, 1.0 / si),
             Role::Step => (1.0 / si, si),

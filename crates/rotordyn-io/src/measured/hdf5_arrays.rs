@@ -198,6 +198,7 @@ impl<'a> Collected<'a> {
                 Attribute::Numbers(values) => {
                     self.left_out.push(format!("{name} (an attribute of {} numbers)", values.len()));
                 }
+                Attribute::Unread(why) => self.left_out.push(format!("{name} (an attribute: {why})")),
                 Attribute::Text(text) => self.found.push(Array::text(&name, text)),
                 Attribute::Texts(texts) => {
                     let (shape, data) = (vec![texts.len()], Data::Text(texts.clone()));

@@ -14,9 +14,11 @@ use rotordyn_signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Recor
 
 /// Reads the channels and FRFs of a results file, else every numeric data set of any other file.
 ///
+/// `given_rate` \[Hz\] holds where two sampling rates are stated for a record.
+///
 /// # Errors
-/// The file cannot be read, or exceeds its budget.
-pub fn read(path: &Path, limits: &Limits) -> Result<MeasuredData, Error> {
+/// The file cannot be read, states two sampling rates, or exceeds its budget.
+pub fn read(path: &Path, limits: &Limits, given_rate: Option<f64>) -> Result<MeasuredData, Error> {
     let file = open_reader(path, limits)?;
     let program = if file.contains("/meta")? { file.attribute("/meta", "program")? } else { None };
     let own = program == Some(Attribute::Text("rotordyn".into()));
@@ -26,7 +28,7 @@ pub fn read(path: &Path, limits: &Limits) -> Result<MeasuredData, Error> {
     let size = std::fs::metadata(path).map_err(Error::of_file("read", path))?.len();
     let budget = Budget::new(limits, size);
     let Collected { found, left_out, .. } = Collected::of_file(&*file, &budget)?;
-    let mut out = arrays::to_records(&found, &budget).map_err(|problem| problem.of_file(path))?;
+    let mut out = arrays::to_records(&found, &budget, given_rate).map_err(|problem| problem.of_file(path))?;
     out.left_out.splice(0..0, left_out);
     Ok(out)
 }

@@ -24,6 +24,7 @@ pub mod mapping;
 mod record_arrays;
 pub mod run_up;
 mod signal_calc;
+pub(crate) mod stated_value;
 mod structures;
 #[cfg(feature = "hdf5")]
 pub mod test_data;
@@ -108,6 +109,16 @@ pub fn read(path: &Path) -> Result<MeasuredData, Error> {
 /// # Errors
 /// As [`read`].
 pub fn read_within(path: &Path, limits: &Limits) -> Result<MeasuredData, Error> {
+    read_at_rate(path, limits, None)
+}
+
+/// As [`read_within`], with a sampling rate \[Hz\] that holds where the file states two that differ, with a note.
+///
+/// It is no other rate for records that state one, and none for those that state none.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_at_rate(path: &Path, limits: &Limits, given_rate: Option<f64>) -> Result<MeasuredData, Error> {
     let mut head = Vec::new();
     let file = std::fs::File::open(path).map_err(Error::of_file("read", path))?;
     budget::regular_size(path, &file)?;
@@ -121,7 +132,8 @@ pub fn read_within(path: &Path, limits: &Limits) -> Result<MeasuredData, Error> 
         return Err(content("the file is empty", "copy or export it again"));
     }
     let of_arrays = |(arrays, left_out, budget): (Vec<arrays::Array>, Vec<String>, Budget)| {
-        let mut out = arrays::to_records(&arrays, &budget).map_err(|problem| problem.of_file(path))?;
+        let mut out =
+            arrays::to_records(&arrays, &budget, given_rate).map_err(|problem| problem.of_file(path))?;
         out.left_out.splice(0..0, left_out);
         Ok::<_, Error>(out)
     };
@@ -131,10 +143,10 @@ pub fn read_within(path: &Path, limits: &Limits) -> Result<MeasuredData, Error> 
         Some(Format::Numpy) => of_arrays(npy::read(path, limits)?)?,
         Some(Format::Wav) => wav::read(path, limits)?.0,
         #[cfg(feature = "hdf5")]
-        Some(Format::Hdf5) => hdf5_records::read(path, limits)?,
+        Some(Format::Hdf5) => hdf5_records::read(path, limits, given_rate)?,
         #[cfg(not(feature = "hdf5"))]
         Some(Format::Hdf5) => return Err(without_hdf5(path)),
-        Some(Format::Table) => csv::read(path, limits)?.0,
+        Some(Format::Table) => csv::read(path, limits, given_rate)?.0,
         None if Format::of_extension(path) == Some(Format::Mat) => {
             return Err(content("it is not a MATLAB file of version 4, 5 or 7.3", "save it with `save -v7`"));
         }

@@ -7,7 +7,7 @@ use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
 
 use super::array::{Array, Data};
-use super::axis_names::{Meaning, Role, StatedRate, check_same, meaning};
+use super::axis_names::{Meaning, Role, StatedRate, check_same, meaning, six_digits};
 use super::content_problem::ContentProblem;
 use crate::budget::MAX_DEPTH;
 use rotordyn_signal::record::{Axis, AxisQuantity, Points};
@@ -37,6 +37,9 @@ pub(super) struct Structures<'a> {
     records: HashMap<&'a str, usize>,
     /// Places of the arrays that have been taken as axis, unit or title.
     used: RefCell<HashSet<usize>>,
+    given_rate: Option<f64>,
+    /// What was decided between contradictions.
+    pub notes: RefCell<Vec<String>>,
 }
 
 /// A list of times or frequencies.
@@ -63,7 +66,8 @@ pub(super) struct Axes<'a> {
 }
 
 impl<'a> Structures<'a> {
-    pub fn new(arrays: &'a [Array]) -> Self {
+    /// `given_rate`: sampling rate \[Hz\] that holds where the file states two.
+    pub fn new(arrays: &'a [Array], given_rate: Option<f64>) -> Self {
         let mut found = Self {
             arrays,
             places: HashMap::new(),
@@ -71,6 +75,8 @@ impl<'a> Structures<'a> {
             units: HashMap::new(),
             records: HashMap::new(),
             used: RefCell::default(),
+            given_rate,
+            notes: RefCell::default(),
         };
         for (place, array) in arrays.iter().enumerate() {
             found.places.entry(array.name.as_str()).or_insert(place);
@@ -143,16 +149,24 @@ impl<'a> Structures<'a> {
     ) -> Result<(), ContentProblem> {
         let scalar = |role: Role| {
             let of_role = stated.iter().find(|(meaning, _)| meaning.role == role);
-            of_role.and_then(|(_, place)| Some((self.arrays[*place].as_scalar()?, *place)))
+            of_role.and_then(|(meaning, place)| {
+                let (value, _) = self.arrays[*place].as_stated()?;
+                Some((meaning.in_si(value), *place))
+            })
         };
         if found.rates.is_empty() {
             let rates = stated.iter().filter_map(|(meaning, place)| {
                 let array = &self.arrays[*place];
-                Some((meaning, StatedRate::of(meaning, &array.name, array.as_scalar()?)?, *place))
+                let (value, _) = array.as_stated()?;
+                Some((meaning, StatedRate::of(meaning, &array.name, value)?, *place))
             });
             let (uncertain, certain): (Vec<_>, Vec<_>) = rates.partition(|(meaning, ..)| meaning.uncertain);
-            check_same(certain.iter().map(|(_, rate, _)| rate))?;
-            let chosen = if certain.is_empty() { uncertain.into_iter().take(1).collect() } else { certain };
+            let instead = self.check_same(certain.iter().map(|(_, rate, _)| rate))?;
+            let mut chosen: Vec<_> =
+                if certain.is_empty() { uncertain.into_iter().take(1).collect() } else { certain };
+            if let Some(given) = instead {
+                chosen.iter_mut().for_each(|(_, rate, _)| *rate = given.clone());
+            }
             found.rates = chosen.into_iter().map(|(_, rate, place)| (rate, place)).collect();
             found.distance = distance;
             found.start = if found.rates.is_empty() { None } else { scalar(Role::Start) };
@@ -195,8 +209,12 @@ impl<'a> Structures<'a> {
                 && list.distance == axes.distance
             {
                 let of_list = StatedRate { rate: 1.0 / step, step: *step, source: source.clone() };
-                check_same([rate, &of_list])?;
+                let instead = self.check_same([rate, &of_list])?;
                 self.use_array(*place);
+                if let Some(given) = instead {
+                    let axis = Axis::uniform(AxisQuantity::Time, axis.start(), given.step);
+                    return Ok((axis, given.source));
+                }
             }
             return Ok((axis, source));
         }
@@ -207,6 +225,25 @@ impl<'a> Structures<'a> {
             start
         });
         Ok((Axis::uniform(AxisQuantity::Time, start, stated.step), stated.source.clone()))
+    }
+
+    /// Refuses rates that differ, unless the user gives one: it holds instead, and a note names both.
+    fn check_same<'r>(
+        &self,
+        rates: impl IntoIterator<Item = &'r StatedRate>,
+    ) -> Result<Option<StatedRate>, ContentProblem> {
+        match (check_same(rates), self.given_rate) {
+            (Ok(()), _) => Ok(None),
+            (Err(problem), None) => Err(problem),
+            (Err(problem), Some(rate)) => {
+                let note = format!("{}: {} Hz is used, as given", problem.problem, six_digits(rate));
+                let mut notes = self.notes.borrow_mut();
+                if !notes.contains(&note) {
+                    notes.push(note);
+                }
+                Ok(Some(StatedRate::given(rate)))
+            }
+        }
     }
 
     /// Number of samples that is stated for the records of a structure.
@@ -243,8 +280,15 @@ impl AxisList<'_> {
 
 /// What an array states of an axis by its name and form: a number, or a list that increases.
 fn meaning_of(array: &Array, last: &str) -> Option<Meaning> {
-    if let Some(value) = array.as_scalar() {
-        let meaning = meaning(last, &[Role::Rate, Role::Step, Role::Start, Role::Count])?;
+    if let Some((value, si)) = array.as_stated() {
+        let mut meaning = meaning(last, &[Role::Rate, Role::Step, Role::Start, Role::Count])?;
+        if let Some(si) = si {
+            // The unit beside the number wins over that of the name.
+            if !meaning.role.takes_unit(&si.name) {
+                return None;
+            }
+            (meaning.numerator, meaning.divisor) = (si.numerator, si.divisor);
+        }
         let possible = match meaning.role {
             Role::Rate | Role::Step => StatedRate::of(&meaning, last, value).is_some(),
             _ => value.is_finite(),

@@ -5,6 +5,7 @@ use crate::results::OrderLine;
 use crate::results::order_tracks::tracks_document;
 use rotordyn_signal::order::{OrderCut, OrderSpectrogram};
 use rotordyn_signal::order_tracks::OrderTracks;
+use rotordyn_signal::tacho_jitter::JitterLeak;
 use serde::{Deserialize, Serialize};
 
 /// Order tracking: map, mean order spectrum and cuts.
@@ -16,6 +17,8 @@ pub struct ShaftOrders {
     pub cuts: Vec<(OrderLine, OrderCut)>,
     /// Amplitude and phase of the cuts' orders by the Vold-Kalman filter, if asked for.
     pub tracks: Option<OrderTracks>,
+    /// Tracked orders that the tacho's jitter makes of a stronger one beside them.
+    pub jitter_leaks: Vec<JitterLeak>,
 }
 
 impl ShaftOrders {
@@ -35,6 +38,15 @@ impl ShaftOrders {
             .numbers(in_hdf5("time"), "s", &map.times)
             .numbers(in_hdf5("order"), "1/revolution", &map.orders)
             .array(in_hdf5("average"), Array::real(&[bins], unit, &self.average).over(0, "order"))
+            .and_if((!self.jitter_leaks.is_empty()).then_some(()), |out, ()| {
+                let label = |track: usize| &self.cuts[track].0.label;
+                let leaks = Rows::of(&self.jitter_leaks)
+                    .text("label", |l| label(l.track))
+                    .text("beside", |l| label(l.neighbour))
+                    .number("amplitude_rms", unit, |l| l.amplitude)
+                    .number("leak_rms", unit, |l| l.leak);
+                out.table(in_json("tacho_jitter"), leaks)
+            })
             .and_if(self.tracks.as_ref(), |out, found| {
                 let lines = self.cuts.iter().map(|(line, _)| line);
                 out.group("vold_kalman", tracks_document(channel, lines, found, unit))

@@ -11,6 +11,9 @@ use rotordyn_signal::resample::{AngleResampler, SAMPLES_PER_ORDER};
 use rotordyn_signal::statistics::statistics;
 use rotordyn_signal::synchronous::synchronous_average;
 
+/// Share of an order's amplitude above which the leak of another one matters: 1 dB.
+const LEAK_SHARE: f64 = 0.12;
+
 impl Job<'_> {
     /// Highest order: as given, else by bearing, the orders asked for and the sampling rate.
     pub(super) fn max_order(&self) -> f64 {
@@ -53,7 +56,9 @@ impl Job<'_> {
                 Ok((line, cut))
             })
             .collect();
-        Ok(ShaftOrders { cuts: cuts?, average, map, tracks })
+        let jitter = self.shaft.and_then(|shaft| shaft.jitter);
+        let leaks = tracks.as_ref().zip(jitter).map(|(found, jitter)| jitter.leaks(found, LEAK_SHARE));
+        Ok(ShaftOrders { cuts: cuts?, average, map, tracks, jitter_leaks: leaks.unwrap_or_default() })
     }
 
     /// A warning for every pair of tracked orders that the bandwidth does not separate.

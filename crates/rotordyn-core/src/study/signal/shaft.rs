@@ -6,6 +6,7 @@ use crate::results::ShaftSummary;
 use rotordyn_signal::SignalError;
 use rotordyn_signal::resample::integrate_speed;
 use rotordyn_signal::tacho::PulseTrain;
+use rotordyn_signal::tacho_jitter::Jitter;
 use rotordyn_signal::tacholess::{SpeedLineSettings, speed_from_line};
 
 /// Relative speed variation up to which the speed counts as constant.
@@ -22,6 +23,8 @@ pub struct ShaftMotion {
     /// Shaft angle \[rad\] at the record's samples from `first` on; empty if only the mean speed is known.
     pub angle: Vec<f64>,
     pub first: usize,
+    /// Jitter of an angle from tacho pulses.
+    pub jitter: Option<Jitter>,
 }
 
 impl ShaftMotion {
@@ -29,7 +32,7 @@ impl ShaftMotion {
     pub fn constant(speed: f64, source: String) -> Self {
         let speed = speed.abs();
         let summary = ShaftSummary { source, mean: speed, min: speed, max: speed, steady: true };
-        ShaftMotion { summary, angle: Vec::new(), first: 0 }
+        ShaftMotion { summary, angle: Vec::new(), first: 0, jitter: None }
     }
 
     /// An angle \[rad\] sampled at `sample_rate` \[Hz\] from sample `first` of the record on.
@@ -47,7 +50,12 @@ impl ShaftMotion {
             (least, most) = (least.min(speed), most.max(speed));
         }
         let steady = most - least <= STEADY_TOLERANCE * mean;
-        ShaftMotion { summary: ShaftSummary { source, mean, min: least, max: most, steady }, angle, first }
+        ShaftMotion {
+            summary: ShaftSummary { source, mean, min: least, max: most, steady },
+            angle,
+            first,
+            jitter: None,
+        }
     }
 
     /// A speed \[rad/s\] sampled like the record, integrated. Errors: NaN.
@@ -65,6 +73,8 @@ impl ShaftMotion {
         smooth: bool,
         source: String,
     ) -> Result<Self, SignalError> {
+        // Smoothing over nine pulses leaves the slow part of the jitter, which comes close to an order.
+        let jitter = Jitter::of_pulses(train)?;
         let smoothed;
         let train = if smooth {
             smoothed = train.smoothed(SMOOTHING)?;
@@ -73,7 +83,7 @@ impl ShaftMotion {
             train
         };
         let (angle, first) = train.angle(sample_rate, samples)?;
-        Ok(Self::from_angle(angle, first, sample_rate, source))
+        Ok(ShaftMotion { jitter, ..Self::from_angle(angle, first, sample_rate, source) })
     }
 
     /// Tacholess: from the line of one order in the record itself, between two frequencies \[Hz\].
