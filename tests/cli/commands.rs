@@ -5,7 +5,7 @@ use serde_json::Value;
 
 const RIG: &str = "models/overhung_rig.toml";
 const JEFFCOTT: &str = "models/jeffcott.toml";
-const COMMANDS: [&str; 22] = [
+const COMMANDS: [&str; 23] = [
     "init",
     "run",
     "check",
@@ -27,6 +27,7 @@ const COMMANDS: [&str; 22] = [
     "lyapunov",
     "bifurcation",
     "signal",
+    "trend",
     "identify",
 ];
 

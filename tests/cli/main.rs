@@ -27,6 +27,7 @@ mod signal;
 mod signal_failures;
 mod signal_grade;
 mod steady;
+mod trend;
 mod update_frf;
 mod validate_update;
 

@@ -1,10 +1,12 @@
 //! Orders tracked by the Vold-Kalman filter: of a simulated run-up against the unbalance response, of measured pulses.
 
 use std::f64::consts::TAU;
+use std::path::PathBuf;
 
 use crate::signal::measured_data;
 use crate::{json_of, rotordyn};
 use rotordyn::io::measured;
+use rotordyn::linalg::Complex64;
 use rotordyn::signal::record::{MeasuredData, Record, Values};
 use serde_json::Value;
 
@@ -59,31 +61,45 @@ fn order_one_of_a_run_up_is_the_unbalance_response() {
     }
 }
 
-/// Orders 7 and 7.144 with a drifting offset over the shaft angle of measured tacho pulses, as asked for by number and by
-/// name; both amplitudes change slowly.
-#[test]
-fn close_orders_over_measured_tacho_pulses() {
-    let Some(times) = measured_data::measured("tacho_run_up/time_s.csv") else { return };
-    let Values::Real(pulses) = measured::read(&times).unwrap().records.remove(0).values else {
+/// The times of measured tacho pulses, and their file.
+fn measured_pulses() -> Option<(PathBuf, Vec<f64>)> {
+    let path = measured_data::measured("tacho_run_up/time_s.csv")?;
+    let Values::Real(pulses) = measured::read(&path).unwrap().records.remove(0).values else {
         panic!("the file holds times");
     };
-    let rate = 5120.0;
-    let duration = pulses[pulses.len() - 1];
-    // Cubic between the pulses with the slopes of central differences, not the spline of the command.
+    Some((path, pulses))
+}
+
+/// Shaft angle at increasing times: cubic between the pulses with the slopes of central differences, not the spline of the
+/// command.
+fn angle_between(pulses: &[f64]) -> impl FnMut(f64) -> f64 {
     let slope = |i: usize| {
         let (a, b) = (i.saturating_sub(1), (i + 1).min(pulses.len() - 1));
         (b - a) as f64 / (pulses[b] - pulses[a])
     };
     let mut k = 0;
-    let sample = |n: usize| {
-        let t = n as f64 / rate;
+    move |t: f64| {
         while k + 2 < pulses.len() && pulses[k + 1] <= t {
             k += 1;
         }
         let width = pulses[k + 1] - pulses[k];
         let s = (t - pulses[k]) / width;
         let (from, to) = (width * slope(k), width * slope(k + 1));
-        let theta = TAU * (k as f64 + s * (from + s * (3.0 - 2.0 * from - to + s * (from + to - 2.0))));
+        TAU * (k as f64 + s * (from + s * (3.0 - 2.0 * from - to + s * (from + to - 2.0))))
+    }
+}
+
+/// Orders 7 and 7.144 with a drifting offset over the shaft angle of measured tacho pulses, as asked for by number and by
+/// name; both amplitudes change slowly.
+#[test]
+fn close_orders_over_measured_tacho_pulses() {
+    let Some((times, pulses)) = measured_pulses() else { return };
+    let rate = 5120.0;
+    let duration = pulses[pulses.len() - 1];
+    let mut angle = angle_between(&pulses);
+    let sample = |n: usize| {
+        let t = n as f64 / rate;
+        let theta = angle(t);
         (1.0 + t / duration) * (7.0 * theta).cos() + 0.7 * (7.144 * theta + 1.0).cos() + 2.0 * t / duration
     };
     let x = (0..(duration * rate) as usize).map(sample).collect();
@@ -121,4 +137,89 @@ fn close_orders_over_measured_tacho_pulses() {
     assert!(
         wide["channels"][0]["warnings"][0].as_str().unwrap().contains("7x and 7.144x lie in one pass band")
     );
+}
+
+/// Order 2 through a resonance at 60 Hz (1800 rpm, passed within a second up and down) over measured pulses, beside a
+/// steady order 7: the Vold-Kalman track, the cut of the resampled record, and sines fitted to single revolutions by least
+/// squares, against the complex response of the oscillator, integrated beside the record.
+#[test]
+fn order_through_a_resonance_over_measured_pulses() {
+    let Some((times, pulses)) = measured_pulses() else { return };
+    let (rate, substeps) = (5120.0, 4);
+    let (omega, zeta) = (TAU * 60.0, 0.03);
+    let count = (pulses[pulses.len() - 1] * rate) as usize;
+    let step = 1.0 / (rate * f64::from(substeps));
+    let mut at = angle_between(&pulses);
+    // Before the first pulse the shaft stands.
+    let mut angle = |t: f64| if t < pulses[0] { 0.0 } else { at(t) };
+    // z'' + 2 zeta omega z' + omega^2 z = omega^2 e^(2 j theta), by Runge-Kutta: z e^(-2 j theta) is the amplitude.
+    let mut state = [Complex64::new(0.0, 0.0); 2];
+    let drive = |theta: f64| Complex64::from_polar(1.0, 2.0 * theta);
+    let slope = |[z, v]: [Complex64; 2], force: Complex64| [v, omega * omega * (force - z) - 2.0 * zeta * omega * v];
+    let moved = |s: [Complex64; 2], k: [Complex64; 2], h: f64| [s[0] + h * k[0], s[1] + h * k[1]];
+    let (mut x, mut theta, mut truth) = (Vec::new(), Vec::new(), Vec::new());
+    for n in 0..count {
+        let t = n as f64 / rate;
+        let here = angle(t);
+        x.push(state[0].re + 0.5 * (7.0 * here).cos());
+        theta.push(here);
+        truth.push(state[0] * Complex64::from_polar(1.0, -2.0 * here));
+        for k in 0..substeps {
+            let t = t + f64::from(k) * step;
+            let [a, b, c] = [t, t + 0.5 * step, t + step].map(|t| drive(angle(t)));
+            let k1 = slope(state, a);
+            let k2 = slope(moved(state, k1, 0.5 * step), b);
+            let k3 = slope(moved(state, k2, 0.5 * step), b);
+            let k4 = slope(moved(state, k3, step), c);
+            for (i, value) in state.iter_mut().enumerate() {
+                *value += step / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
+            }
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("run.h5");
+    let records = vec![Record::samples("A_ax", rate, 0.0, x.clone(), "m/s^2")];
+    measured::write(&path, &MeasuredData { records, ..MeasuredData::default() }).unwrap();
+    let mut command = rotordyn();
+    command.arg("signal").arg(&path).arg("--tacho").arg(&times).arg("--out").arg(folder.path().join("out"));
+    command.args(["--analyses", "orders", "--orders", "2,7", "--bandwidth", "0.4", "--order-resolution", "0.1"]);
+    let document = json_of(command.arg("--no-figures"));
+    let orders = &document["channels"][0]["orders"];
+    let track = &orders["vold_kalman"]["tracks"][0];
+    let time = numbers(&orders["vold_kalman"]["time"]);
+    let (amplitude, phase) = (numbers(&track["amplitude"]), numbers(&track["phase_rad"]));
+    // The angle of the command begins at the first pulse, as here; up to the end of the run-up.
+    let places: Vec<(usize, usize)> =
+        (0..time.len()).map(|k| (k, (time[k] * rate).round() as usize)).filter(|(_, n)| *n < truth.len()).collect();
+    let peak_of = |range: std::ops::Range<f64>| {
+        let within = places.iter().filter(|(k, _)| range.contains(&time[*k]));
+        *within.max_by(|a, b| truth[a.1].norm().total_cmp(&truth[b.1].norm())).unwrap()
+    };
+    // Sines over the revolutions about a sample.
+    let fitted = |n: usize, turns: f64| {
+        let near: Vec<usize> = (0..count).filter(|&m| (theta[m] - theta[n]).abs() <= 0.5 * turns * TAU).collect();
+        let mut normal = nalgebra::Matrix4::zeros();
+        let mut right = nalgebra::Vector4::zeros();
+        for &m in &near {
+            let [two, seven] = [2.0, 7.0].map(|order| order * theta[m]);
+            let row = nalgebra::Vector4::new(two.cos(), -two.sin(), seven.cos(), -seven.sin());
+            normal += row * row.transpose();
+            right += row * x[m];
+        }
+        let found = normal.cholesky().unwrap().solve(&right);
+        Complex64::new(found[0], found[1])
+    };
+    let cuts = orders["cuts"].as_array().unwrap();
+    let highest_cut = numbers(&cuts[0]["rms"]).into_iter().fold(0.0, f64::max) * 2f64.sqrt();
+    let middle = 0.5 * (pulses[0] + pulses[pulses.len() - 1]);
+    for (name, range) in [("up", 0.0..middle), ("down", middle..1e9)] {
+        let (k, n) = peak_of(range);
+        let tracked = Complex64::from_polar(amplitude[k], phase[k]);
+        let sines = fitted(n, 3.0);
+        let turned = |z: Complex64| (z / truth[n]).arg().to_degrees();
+        println!(
+            "{name} at {:.2} s: true {:.3}, tracked {:.3} {:+.1} deg, fitted {:.3} {:+.1} deg, highest cut {highest_cut:.3}",
+            time[k], truth[n].norm(), tracked.norm(), turned(tracked), sines.norm(), turned(sines)
+        );
+    }
 }

@@ -23,6 +23,7 @@ mod results_file;
 mod rig;
 mod rig_results;
 mod saved_results;
+mod stated_rates;
 mod tables;
 mod uff;
 mod uff_measured;

@@ -83,6 +83,34 @@ pub const CASES: &[Case] = &[
             program::codes(folder.path(), &[&arguments[..], &ENVELOPE, &OUT].concat(), 0)
         })
     }),
+    (Code::RecordsDiffer, || {
+        let folder = program::folder(&[]);
+        let record = shaft_at_30_hz();
+        let fast = Axis::uniform(AxisQuantity::Time, 0.0, 1.0 / 6000.0);
+        write(folder.path(), "rec1.npz", vec![record.clone()]);
+        write(folder.path(), "rec2.npz", vec![record.clone()]);
+        write(folder.path(), "rec3.npz", vec![Record { axis: fast, ..record }]);
+        ["rec2.npz", "rec3.npz"]
+            .map(|second| program::codes(folder.path(), &[&["trend", "rec1.npz", second][..], &OUT].concat(), 0))
+    }),
+    (Code::TachoJitter, || {
+        let folder = program::folder(&[]);
+        // A shaft at 30.3 rev/s: 7x, and a fourteenth of it beside.
+        let sample = |k: u32| {
+            let angle = TAU * 30.3 * f64::from(k) / 5000.0;
+            10.0 * (7.0 * angle).cos() + 0.7 * (7.144 * angle).cos()
+        };
+        let axis = Axis::uniform(AxisQuantity::Time, 0.0, 1.0 / 5000.0);
+        let values = Values::Real((0..48_000).map(sample).collect());
+        write(folder.path(), "record.npz", vec![Record::new("acc", Kind::Time, axis, values, "m/s^2")]);
+        // Its pulses, and as a counter of 4 kHz has them.
+        [1e9, 4000.0].map(|clock: f64| {
+            let pulse = |k: u32| format!("{:.9}\n", (f64::from(k) / 30.3 * clock).ceil() / clock);
+            std::fs::write(folder.path().join("pulses.csv"), (0..285).map(pulse).collect::<String>()).unwrap();
+            let arguments = ["signal", "record.npz", "--tacho", "pulses.csv", "--orders", "7,7.144", "--bandwidth", "0.15", "--analyses", "orders"];
+            program::codes(folder.path(), &[&arguments[..], &OUT].concat(), 0)
+        })
+    }),
 ];
 
 const OUT: [&str; 3] = ["--no-figures", "--out", "out"];

@@ -16,6 +16,7 @@ mod resampling;
 mod sections;
 mod speed_line;
 mod tacho;
+mod tacho_jitter;
 mod vold_kalman;
 
 use rotordyn_signal::Complex;
