@@ -28,6 +28,7 @@ mod signal_failures;
 mod signal_grade;
 mod steady;
 mod trend;
+mod trend_statements;
 mod update_frf;
 mod validate_update;
 

@@ -219,8 +219,24 @@ fn other_sets_of_records() {
     let positions: Vec<f64> = column(&found, "position").iter().map(|v| v.as_f64().unwrap()).collect();
     assert!((positions[0] - 1800.0).abs() < 20.0 && (positions[1] - 3600.0).abs() < 40.0, "{positions:?}");
 
-    let (_, code) = trend(&[&one, &fast], &out, &["--over", "load=1,2,3"]);
-    assert_eq!(code, 2);
+    // A number that the files state, here in a structure.
+    let loaded = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/arrays/structures/mfpt.mat");
+    let (found, code) = trend(&[&loaded], &out, &["--over", "load", "--no-figures"]);
+    assert_eq!((code, &found["records"][0]["position"]), (0, &270.0.into()));
+    assert_eq!(found["records"][0]["channel"], "bearing.gs");
+    assert!(found["axis"]["source"].as_str().unwrap().contains("`load`"), "{}", found["axis"]);
+
+    for (flags, part) in [
+        (["--over", "load=1,2,3"], "3 values for 2 records"),
+        (["--over", "lood"], "states no number of this name"),
+        (["--over", "time"], "neither all files nor all names state a date"),
+        (["--speed", "1,2,3 rpm"], "3 speeds for 2 records"),
+        (["--rms-bands", "2 kHz"], "expected a range"),
+    ] {
+        let (found, code) = trend(&[&one, &fast], &out, &flags);
+        assert_eq!(code, 2, "{flags:?}");
+        assert!(found["errors"].to_string().contains(part), "{flags:?}: {}", found["errors"]);
+    }
     let (none, code) = trend(&[&folder.path().join("missing.h5")], &out, &[]);
     assert_eq!(code, 4, "{}", none["errors"]);
 }

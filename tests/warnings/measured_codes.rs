@@ -95,9 +95,9 @@ pub const CASES: &[Case] = &[
     }),
     (Code::TachoJitter, || {
         let folder = program::folder(&[]);
-        // A shaft at 30.3 rev/s: 7x, and a fourteenth of it beside.
+        // A shaft at 30.37 rev/s: 7x, and a fourteenth of it beside.
         let sample = |k: u32| {
-            let angle = TAU * 30.3 * f64::from(k) / 5000.0;
+            let angle = TAU * 30.37 * f64::from(k) / 5000.0;
             10.0 * (7.0 * angle).cos() + 0.7 * (7.144 * angle).cos()
         };
         let axis = Axis::uniform(AxisQuantity::Time, 0.0, 1.0 / 5000.0);
@@ -105,7 +105,7 @@ pub const CASES: &[Case] = &[
         write(folder.path(), "record.npz", vec![Record::new("acc", Kind::Time, axis, values, "m/s^2")]);
         // Its pulses, and as a counter of 4 kHz has them.
         [1e9, 4000.0].map(|clock: f64| {
-            let pulse = |k: u32| format!("{:.9}\n", (f64::from(k) / 30.3 * clock).ceil() / clock);
+            let pulse = |k: u32| format!("{:.9}\n", (f64::from(k) / 30.37 * clock).ceil() / clock);
             std::fs::write(folder.path().join("pulses.csv"), (0..285).map(pulse).collect::<String>()).unwrap();
             let arguments = ["signal", "record.npz", "--tacho", "pulses.csv", "--orders", "7,7.144", "--bandwidth", "0.15", "--analyses", "orders"];
             program::codes(folder.path(), &[&arguments[..], &OUT].concat(), 0)
