@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use crate::signal::{faulty_bearing_record, measured_data};
-use crate::{json_of, output_of, rotordyn};
+use crate::{output_of, rotordyn};
 use rotordyn::io::measured;
 use rotordyn::signal::record::{MeasuredData, Record};
 use serde_json::Value;

@@ -72,14 +72,21 @@ pub fn trend(x: &[f64], y: &[f64]) -> Result<Option<Trend>, SignalError> {
             libm::erfc(z / std::f64::consts::SQRT_2)
         }
     };
-    slopes.sort_by(f64::total_cmp);
     let linear = |groups: &[f64]| groups.iter().map(|t| t * (t - 1.0) * (2.0 * t + 5.0)).sum::<f64>();
     let spread = (count * (count - 1.0) * (2.0 * count + 5.0) - linear(&ties[0]) - linear(&ties[1])) / 18.0;
     let half = NORMAL_97_5 * spread.max(0.0).sqrt();
     let pairs = slopes.len() as f64;
     let low = (0.5 * (pairs - half)).round_ties_even() as i64 - 1;
     let high = (0.5 * (pairs + half)).round_ties_even() as i64;
-    let at = |k: i64| slopes[k.clamp(0, slopes.len() as i64 - 1) as usize];
+    // Thousands of records have millions of pairs: their order statistics are selected, not sorted.
+    let last = slopes.len() - 1;
+    let mut at = |k: i64| {
+        let k = k.clamp(0, last as i64) as usize;
+        *slopes.select_nth_unstable_by(k, f64::total_cmp).1
+    };
+    let slope_interval = [at(low), at(high)];
+    let middle = 0.5 * last as f64;
+    let slope = 0.5 * (at(middle.floor() as i64) + at(middle.ceil() as i64));
     let fifth = n.div_ceil(5);
     let [early, late] = [points[fifth - 1].0, points[n - fifth].0];
     let end = |within: &dyn Fn(f64) -> bool| {
@@ -92,8 +99,8 @@ pub fn trend(x: &[f64], y: &[f64]) -> Result<Option<Trend>, SignalError> {
         count: n,
         tau: s as f64 / (in_x * in_y).sqrt(),
         p_value,
-        slope: median(&slopes),
-        slope_interval: [at(low), at(high)],
+        slope,
+        slope_interval,
         ends: [first.0, last.0],
         end_counts: [first.1, last.1],
     }))

@@ -150,7 +150,7 @@ mod tests {
         names.sort_by(|a, b| natural_order(a, b));
         assert_eq!(
             names,
-            ["a.mat", "rec.mat", "rec1.mat", "rec002.mat", "rec2.mat", "rec02b.mat", "rec10.mat"]
+            ["a.mat", "rec1.mat", "rec002.mat", "rec2.mat", "rec02b.mat", "rec10.mat", "rec.mat"]
         );
     }
 

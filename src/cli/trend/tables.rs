@@ -7,6 +7,9 @@ use super::super::signal::line_tables::band;
 use super::super::terminal::{Terminal, number};
 use super::axis_title;
 
+/// Most rows in the terminal: the first and the last of more.
+const MAX_ROWS: usize = 100;
+
 /// Prints one row per record, and what is said of the whole.
 pub fn print(terminal: &Terminal, found: &TrendResult) {
     if let Some(b) = &found.bearing {
@@ -26,9 +29,14 @@ pub fn print(terminal: &Terminal, found: &TrendResult) {
         header.extend(BearingPart::ALL.map(|part| part.line_name().to_string()));
     }
     header.push(if found.bearing.is_some() { "diagnosis" } else { "" }.into());
-    let rows: Vec<Vec<String>> = found.records.iter().map(|record| row(found, record)).collect();
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let count = found.records.len();
+    let left_out = count.saturating_sub(MAX_ROWS);
+    let shown = |k: &usize| *k < MAX_ROWS / 2 || *k >= MAX_ROWS / 2 + left_out;
+    let mut rows: Vec<Vec<String>> = (0..count).filter(shown).map(|k| row(found, &found.records[k])).collect();
+    if left_out > 0 {
+        rows.insert(MAX_ROWS / 2, vec![format!("... {left_out} more")]);
+    }
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let title = format!(
         "{count} record{} over {} ({})",
         if count == 1 { "" } else { "s" },
