@@ -32,7 +32,8 @@ fn healthy(seed: u32) -> Vec<f64> {
 
 /// The same with impacts on the outer race of some amplitude, which excite 3.5 kHz.
 fn faulty(seed: u32, amplitude: f64) -> Vec<f64> {
-    let [with, without] = [faulty_bearing_record(SAMPLES, RATE, BPFO), faulty_bearing_record(SAMPLES, RATE, 0.0)];
+    let [with, without] =
+        [faulty_bearing_record(SAMPLES, RATE, BPFO), faulty_bearing_record(SAMPLES, RATE, 0.0)];
     let impacts = with.iter().zip(&without).map(|(a, b)| a - b);
     healthy(seed).iter().zip(impacts).map(|(x, impact)| x + 0.2 * amplitude * impact).collect()
 }
@@ -88,7 +89,11 @@ fn run_to_failure() {
     assert_eq!(code, 0, "{}", found["warnings"]);
     assert_eq!(found["schema"], "rotordyn-trend-1");
     assert_eq!((&found["axis"]["name"], &found["axis"]["unit"]), (&"time".into(), &"h".into()));
-    assert!(found["axis"]["source"].as_str().unwrap().contains("from 2004-02-12 20:32:39"), "{}", found["axis"]);
+    assert!(
+        found["axis"]["source"].as_str().unwrap().contains("from 2004-02-12 20:32:39"),
+        "{}",
+        found["axis"]
+    );
     let positions: Vec<f64> = column(&found, "position").iter().map(|v| v.as_f64().unwrap()).collect();
     assert!(positions.iter().enumerate().all(|(k, t)| (t - 2.0 * k as f64).abs() < 1e-9), "{positions:?}");
     let named = column(&found, "diagnosis");
@@ -106,7 +111,8 @@ fn run_to_failure() {
         assert!(out.join(file).exists(), "{file}");
     }
     // The same bits on one thread.
-    let (single, _) = trend(&[&records], &folder.path().join("one"), &["--bearing", "6205-2RS", "--threads", "1"]);
+    let (single, _) =
+        trend(&[&records], &folder.path().join("one"), &["--bearing", "6205-2RS", "--threads", "1"]);
     for key in ["records", "changes", "statements"] {
         assert_eq!(single[key], found[key], "{key}");
     }
@@ -121,12 +127,16 @@ fn healthy_machine() {
     for k in 1..=12u32 {
         write(&records, &format!("rec{k}.h5"), healthy(100 + k), RATE);
     }
-    let (found, code) = trend(&[&records], &folder.path().join("out"), &["--bearing", "6205-2RS", "--no-figures"]);
+    let (found, code) =
+        trend(&[&records], &folder.path().join("out"), &["--bearing", "6205-2RS", "--no-figures"]);
     assert_eq!(code, 0);
     let names: Vec<&str> = column(&found, "name").iter().map(|v| v.as_str().unwrap()).collect();
     let expected: Vec<String> = (1..=12).map(|k| format!("rec{k}.h5")).collect();
     assert_eq!(names, expected);
-    assert_eq!((&found["axis"]["name"], &found["axis"]["source"]), (&"rec".into(), &"the number in the names".into()));
+    assert_eq!(
+        (&found["axis"]["name"], &found["axis"]["source"]),
+        (&"rec".into(), &"the number in the names".into())
+    );
     let statements = texts(&found["statements"]);
     assert_eq!(
         statements,
@@ -144,7 +154,8 @@ fn measured_records_over_a_given_axis() {
     let paths = ["cwru/105_IR007_0hp_12k.mat", "cwru/130_OR007at6_0hp_12k.mat"].map(measured_data::measured);
     let [Some(inner), Some(outer)] = paths else { return };
     let folder = tempfile::tempdir().unwrap();
-    let flags = ["--rate", "12 kHz", "--bearing", "6205-2RS", "--over", "wear=7,7.5 mil", "--channel", "DE_time"];
+    let flags =
+        ["--rate", "12 kHz", "--bearing", "6205-2RS", "--over", "wear=7,7.5 mil", "--channel", "DE_time"];
     let (found, code) = trend(&[&inner, &outer], folder.path(), &flags);
     assert_eq!(code, 0, "{}", found["errors"]);
     assert_eq!((&found["axis"]["name"], &found["axis"]["unit"]), (&"wear".into(), &"mil".into()));
@@ -250,7 +261,8 @@ fn bands_of_rms() {
     let (found, code) = trend(&[&one], folder.path(), &flags);
     assert_eq!(code, 0, "{}", found["errors"]);
     let record = &found["records"][0];
-    let bands: Vec<f64> = record["band_rms"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
+    let bands: Vec<f64> =
+        record["band_rms"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
     let of = |name: &str| record[name].as_f64().unwrap();
     let power = of("rms").powi(2) - of("mean").powi(2);
     assert!((bands.iter().map(|b| b * b).sum::<f64>() / power - 1.0).abs() < 1e-12, "{bands:?} {power}");

@@ -1,7 +1,9 @@
 //! What is said of several records: changes that are significant together, and parts that are named.
 
 use rotordyn::bearing::CharacteristicOrders;
-use rotordyn::results::{BearingWithOrders, RecordDiagnosis, RecordState, TrendAxis, TrendRecord, TrendResult};
+use rotordyn::results::{
+    BearingWithOrders, RecordDiagnosis, RecordState, TrendAxis, TrendRecord, TrendResult,
+};
 use rotordyn::signal::bearing_lines::BearingPart;
 use rotordyn::signal::statistics::statistics;
 use rotordyn::study::trend::{complete, differences};
@@ -75,7 +77,14 @@ fn named_parts_in_words() {
         named("..o.oi..........oo...oooo"),
         [
             "outer race named from record 22 (r21) on, 4 times before (first in r2), up to 90 %",
-            "inner race named in 1 of 25 records (r5), not in the last, up to 90 %; as many healthy records are named by chance"
+            "inner race named in 1 of 25 records (r5), not in the last, up to 90 %; 25 healthy records give as many with a \
+             probability of 100 %"
+        ]
+    );
+    assert_eq!(
+        named(".........o"),
+        [
+            "outer race named in the last record only (r9), up to 90 %; 10 healthy records give as many with a probability of 67 %"
         ]
     );
     assert_eq!(named("o"), ["outer race named in r0, up to 90 %"]);
@@ -91,10 +100,21 @@ fn changes_are_stated_if_significant() {
         trend(records.collect()).statements
     };
     let up = rising(10, 1.0);
-    assert!(up[0].starts_with("RMS rises from 1.4") && up[0].contains("m/s^2 (medians of the first 2 and"), "{up:?}");
+    assert!(
+        up[0].starts_with("RMS rises from 1.4") && up[0].contains("m/s^2 (medians of the first 2 and"),
+        "{up:?}"
+    );
     assert!(rising(10, -1.0)[0].starts_with("RMS falls from 1.4"), "{:?}", rising(10, -1.0));
-    assert!(rising(4, 1.0)[0].starts_with("4 records: too few to tell a trend from chance"), "{:?}", rising(4, 1.0));
-    assert!(rising(10, 0.0)[0].starts_with("no quantity has a significant trend over time"), "{:?}", rising(10, 0.0));
+    assert!(
+        rising(4, 1.0)[0].starts_with("4 records: too few to tell a trend from chance"),
+        "{:?}",
+        rising(4, 1.0)
+    );
+    assert!(
+        rising(10, 0.0)[0].starts_with("no quantity has a significant trend over time"),
+        "{:?}",
+        rising(10, 0.0)
+    );
 }
 
 /// Rows are sorted by position, those without one at the end; other units and failures are no error.
@@ -109,7 +129,10 @@ fn rows_without_position_or_unit() {
     }
     let texts = differences(&records, str::to_owned);
     assert!(texts[0].contains("1000 Hz (r3), 500 Hz (r2)"), "{texts:?}");
-    assert!(texts[1].starts_with("units differ") && texts[1].contains("levels are not compared"), "{texts:?}");
+    assert!(
+        texts[1].starts_with("units differ") && texts[1].contains("levels are not compared"),
+        "{texts:?}"
+    );
     assert!(texts[2].starts_with("durations differ"), "{texts:?}");
     let found = trend(records);
     let names: Vec<&str> = found.records.iter().map(|r| r.name.as_str()).collect();

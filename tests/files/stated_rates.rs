@@ -28,7 +28,9 @@ fn assert_axis(what: &str, found: &MeasuredData, quantity: AxisQuantity, step: f
     let names: Vec<&str> = found.records.iter().map(|r| r.name.as_str()).collect();
     let [record] = &found.records[..] else { panic!("{what}: {names:?}") };
     assert_eq!((record.name.as_str(), record.axis.quantity), ("acc", quantity), "{what}");
-    let Points::Uniform { start, step: stated } = record.axis.points else { panic!("{what}: {:?}", record.axis) };
+    let Points::Uniform { start, step: stated } = record.axis.points else {
+        panic!("{what}: {:?}", record.axis)
+    };
     // 1/0.005 and 0.2 * 1000 round once.
     assert!(start == 0.0 && (stated / step - 1.0).abs() < 1e-15, "{what}: {start} {stated}");
     let Values::Real(values) = &record.values else { panic!("{what} is complex") };
@@ -42,8 +44,11 @@ fn assert_axis(what: &str, found: &MeasuredData, quantity: AxisQuantity, step: f
 fn names_of_rates_and_axes_in_every_format() {
     let Some(folder) = written() else { return };
     for ending in ENDINGS {
-        let file = |stem: &str| (format!("{stem}{ending}"), read(&folder.path().join(format!("{stem}{ending}"))).unwrap());
-        let rates = ["one_sr_True", "one_fs_True", "one_Fs_False", "one_SampleFrequency_False", "one_dt_True"];
+        let file = |stem: &str| {
+            (format!("{stem}{ending}"), read(&folder.path().join(format!("{stem}{ending}"))).unwrap())
+        };
+        let rates =
+            ["one_sr_True", "one_fs_True", "one_Fs_False", "one_SampleFrequency_False", "one_dt_True"];
         let times = ["time_t", "time_X_Value"];
         let texts = ["text_0", "text_1", "text_2", "text_3", "text_4", "text_step"];
         for stem in rates.into_iter().chain(times).chain(texts) {
@@ -91,7 +96,8 @@ fn attributes_of_other_types_are_named() {
     let Some(folder) = written() else { return };
     let found = read(&folder.path().join("attributes.h5")).unwrap();
     assert_eq!(found.records[0].axis.points, Points::Uniform { start: 0.0, step: 0.005 });
-    let named = |name: &str| found.left_out.iter().any(|text| text.starts_with(name) && text.contains("attribute"));
+    let named =
+        |name: &str| found.left_out.iter().any(|text| text.starts_with(name) && text.contains("attribute"));
     assert!(named("acc.colour"), "{:?}", found.left_out);
     assert!(named("acc.calibrated"), "{:?}", found.left_out);
 }

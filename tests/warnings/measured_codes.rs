@@ -90,8 +90,9 @@ pub const CASES: &[Case] = &[
         write(folder.path(), "rec1.npz", vec![record.clone()]);
         write(folder.path(), "rec2.npz", vec![record.clone()]);
         write(folder.path(), "rec3.npz", vec![Record { axis: fast, ..record }]);
-        ["rec2.npz", "rec3.npz"]
-            .map(|second| program::codes(folder.path(), &[&["trend", "rec1.npz", second][..], &OUT].concat(), 0))
+        ["rec2.npz", "rec3.npz"].map(|second| {
+            program::codes(folder.path(), &[&["trend", "rec1.npz", second][..], &OUT].concat(), 0)
+        })
     }),
     (Code::TachoJitter, || {
         let folder = program::folder(&[]);
@@ -106,8 +107,20 @@ pub const CASES: &[Case] = &[
         // Its pulses, and as a counter of 4 kHz has them.
         [1e9, 4000.0].map(|clock: f64| {
             let pulse = |k: u32| format!("{:.9}\n", (f64::from(k) / 30.37 * clock).ceil() / clock);
-            std::fs::write(folder.path().join("pulses.csv"), (0..285).map(pulse).collect::<String>()).unwrap();
-            let arguments = ["signal", "record.npz", "--tacho", "pulses.csv", "--orders", "7,7.144", "--bandwidth", "0.15", "--analyses", "orders"];
+            std::fs::write(folder.path().join("pulses.csv"), (0..285).map(pulse).collect::<String>())
+                .unwrap();
+            let arguments = [
+                "signal",
+                "record.npz",
+                "--tacho",
+                "pulses.csv",
+                "--orders",
+                "7,7.144",
+                "--bandwidth",
+                "0.15",
+                "--analyses",
+                "orders",
+            ];
             program::codes(folder.path(), &[&arguments[..], &OUT].concat(), 0)
         })
     }),

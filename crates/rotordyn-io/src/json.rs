@@ -124,8 +124,8 @@ pub fn signal_to_json(results: &[SignalResult], compared: Option<&SignalResult>)
 /// | key | contents |
 /// |---|---|
 /// | `axis` | `name`, `unit`, `source` |
-/// | `unit`, `bearing`, `line_band_low_hz`, `line_band_high_hz`, `rms_bands_hz`, `lines` | what holds for all records |
-/// | `records` | one for each: `name`, `position`, `problem`, `channel`, statistics, `line_amplitude` and `line_level_db` by `lines`, `statement`, `diagnosis`, `candidate`, `probability` |
+/// | `unit`, `bearing`, `line_band_low_hz`, `line_band_high_hz`, `rms_bands_hz` | what holds for all records |
+/// | `records` | one for each: `name`, `position`, `problem`, `channel`, statistics, `bpfo_amplitude`, `bpfo_level_db` and so on, `statement`, `diagnosis`, `candidate`, `probability` |
 /// | `changes` | `quantity`, `first`, `last`, `slope`, `slope_95_percent`, `tau`, `p_value`, `significant` |
 /// | `statements` | what is said of the whole |
 pub fn trend_to_json(found: &TrendResult) -> Value {

@@ -32,7 +32,8 @@ pub fn print(terminal: &Terminal, found: &TrendResult) {
     let count = found.records.len();
     let left_out = count.saturating_sub(MAX_ROWS);
     let shown = |k: &usize| *k < MAX_ROWS / 2 || *k >= MAX_ROWS / 2 + left_out;
-    let mut rows: Vec<Vec<String>> = (0..count).filter(shown).map(|k| row(found, &found.records[k])).collect();
+    let mut rows: Vec<Vec<String>> =
+        (0..count).filter(shown).map(|k| row(found, &found.records[k])).collect();
     if left_out > 0 {
         rows.insert(MAX_ROWS / 2, vec![format!("... {left_out} more")]);
     }
@@ -46,10 +47,10 @@ pub fn print(terminal: &Terminal, found: &TrendResult) {
     terminal.table(&title, &header, &rows);
     if let Some(common) = found.line_band {
         terminal.print(&format!(
-            "  {}: root sum of squares of the lines in the envelope spectrum of {}, peak {}",
+            "  {}: root sum of squares of the lines in the envelope spectrum of {}, {}",
             BearingPart::ALL.map(BearingPart::line_name).join(", "),
             band(common),
-            found.unit
+            level("peak")
         ));
     }
     terminal.heading("Trend");
@@ -62,7 +63,7 @@ fn row(found: &TrendResult, record: &TrendRecord) -> Vec<String> {
     };
     let state = record.state.as_ref();
     let statistics = state.map(|s| &s.statistics);
-    let mut row = vec![record.name.clone(), shown(Some(record.position), 6)];
+    let mut row = vec![record.name.clone(), position(record.position)];
     row.push(shown(state.and_then(|s| s.speed).map(|speed| 60.0 * speed), 5));
     row.extend([shown(statistics.map(|s| s.rms), 4), shown(statistics.map(|s| s.peak), 4)]);
     row.extend((0..found.rms_bands.len()).map(|k| shown(state.and_then(|s| s.band_rms.get(k).copied()), 4)));
@@ -77,6 +78,12 @@ fn row(found: &TrendResult, record: &TrendRecord) -> Vec<String> {
     let said = diagnosis.map(|d| d.statement.clone());
     row.push(record.problem.clone().or(said).unwrap_or_default());
     row
+}
+
+/// At most six digits, without zeros at the end.
+fn position(value: f64) -> String {
+    let rounded = format!("{value:.5e}").parse().unwrap_or(value);
+    if value.is_finite() { f64::to_string(&rounded) } else { "-".into() }
 }
 
 /// "10..1000".

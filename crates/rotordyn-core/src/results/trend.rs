@@ -114,9 +114,10 @@ impl TrendRecord {
         self.state.as_ref()?.diagnosis.as_ref()
     }
 
-    fn lines(&self, of: fn(&LineLevel) -> f64) -> [f64; 4] {
-        let lines = self.diagnosis().and_then(|found| found.lines);
-        lines.map_or([f64::NAN; 4], |lines| lines.map(|line| of(&line)))
+    /// A level of the lines of one part; NaN if it has none.
+    fn line(&self, part: usize, of: fn(&LineLevel) -> f64) -> f64 {
+        let lines = self.diagnosis().and_then(|found| found.lines.as_ref());
+        lines.map_or(f64::NAN, |lines| of(&lines[part]))
     }
 }
 
@@ -189,7 +190,6 @@ impl TrendResult {
             .and_if((!bands.is_empty()).then_some(bands), |out, bands| {
                 out.array("rms_bands_hz", Array::real(&[self.rms_bands.len(), 2], "Hz", bands))
             })
-            .texts("lines", BearingPart::ALL.map(BearingPart::line_name))
             .table("records", self.record_rows())
             .and_if((!self.changes.is_empty()).then_some(()), |out, ()| {
                 out.table("changes", self.change_rows())
@@ -230,10 +230,15 @@ impl TrendResult {
         let edge = |of: fn(&(f64, f64)) -> f64| {
             move |r: &TrendRecord| r.diagnosis().map_or(f64::NAN, |found| of(&found.band))
         };
-        rows.numbers("line_amplitude", unit, &[4], |r| r.lines(|line| line.strength))
-            .cells_over(0, "lines")
-            .numbers("line_level_db", "dB", &[4], |r| r.lines(|line| line.level_db))
-            .cells_over(0, "lines")
+        let with_lines = BearingPart::ALL.into_iter().enumerate().fold(rows, |rows, (k, part)| {
+            let name = part.line_name().to_lowercase().replace(' ', "");
+            rows.number(format!("{name}_amplitude"), unit, |r| r.line(k, |line| line.strength)).number(
+                format!("{name}_level_db"),
+                "dB",
+                |r| r.line(k, |line| line.level_db),
+            )
+        });
+        with_lines
             .optional_text("statement", |r| r.diagnosis().map(|found| &found.statement))
             .optional_text("diagnosis", |r| r.diagnosis()?.part.map(BearingPart::name))
             .optional_text("candidate", |r| r.diagnosis().map(|found| found.candidate.name()))

@@ -14,7 +14,7 @@ const SIGNIFICANCE: f64 = 0.05;
 /// Shares of healthy records in which a part is named, and named at 95 % or above (table of `grading`).
 const FALSE_NAMES: [(f64, f64); 2] = [(0.5, 0.04), (0.95, 0.004)];
 /// Probability of as many names by chance below which nothing is said of it.
-const CHANCE: f64 = 0.01;
+const CHANCE: f64 = 0.05;
 /// Most names of records in a sentence.
 const MAX_NAMES: usize = 6;
 
@@ -187,6 +187,8 @@ fn named_parts(of: &TrendResult) -> Vec<String> {
         let without = named.iter().rev().enumerate().take_while(|(back, k)| **k == all - 1 - back).count();
         let place = if count == all {
             if all == 1 { format!("in {}", name(first)) } else { format!("in all {all} records") }
+        } else if last + 1 == all && count == 1 {
+            format!("in the last record only ({})", name(last))
         } else if last + 1 == all {
             let from = all - without;
             let before = match count - without {
@@ -195,18 +197,22 @@ fn named_parts(of: &TrendResult) -> Vec<String> {
                 n => format!(", {n} times before (first in {})", name(first)),
             };
             format!("from record {} ({}) on{before}", from + 1, name(from))
+        } else if count == 1 {
+            format!("in 1 of {all} records ({}), not in the last", name(first))
         } else {
-            let ends = if count == 1 {
-                format!("{}", name(first))
-            } else {
-                format!("first {}, last {}", name(first), name(last))
-            };
-            format!("in {count} of {all} records ({ends}), not in the last")
+            format!(
+                "in {count} of {all} records (first {}, last {}), not in the last",
+                name(first),
+                name(last)
+            )
         };
         let grades: Vec<f64> = named.iter().map(|&k| judged[k].1.probability).collect();
-        let chance = match chance_of_names(&grades, all) > CHANCE {
-            true if all > 1 => "; as many healthy records are named by chance",
-            _ => "",
+        let chance = chance_of_names(&grades, all);
+        let chance = match all > 1 && chance > CHANCE {
+            true => {
+                format!("; {all} healthy records give as many with a probability of {:.0} %", 100.0 * chance)
+            }
+            false => String::new(),
         };
         out.push(format!("{} named {place}, {highest}{chance}", part.name()));
     }
@@ -223,7 +229,7 @@ fn chance_of_names(grades: &[f64], records: usize) -> f64 {
         1.0 - (0..named).map(|k| binomial(records, k, share)).sum::<f64>()
     };
     let least = FALSE_NAMES.into_iter().map(tail).fold(1.0, f64::min);
-    FALSE_NAMES.len() as f64 * least
+    (FALSE_NAMES.len() as f64 * least).min(1.0)
 }
 
 /// Probability of k of n events of probability p.
@@ -258,7 +264,7 @@ pub fn differences(records: &[TrendRecord], plain_channel: impl Fn(&str) -> Stri
         out.push(format!("{what} differ between the records: {}; {consequence}", texts.join(", ")));
     };
     compare("sampling rates", "crest factor, kurtosis, RMS and line amplitudes depend on them", &|s| {
-        format!("{} Hz", number(s.sample_rate, 6))
+        format!("{} Hz", s.sample_rate)
     });
     compare("units", "levels are not compared", &|s| {
         if s.unit.is_empty() { "no unit".into() } else { s.unit.clone() }

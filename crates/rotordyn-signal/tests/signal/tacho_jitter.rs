@@ -19,8 +19,11 @@ fn leak_of_a_strong_order_by_tacho_jitter() {
     let (mut squares, mut predicted, mut points) = (0.0, 0.0, 0.0);
     for seed in 1..=8 {
         // Uniform within ± 100 us: 0.00907 rad.
-        let times: Vec<f64> =
-            crate::noise(seed, (speed * seconds) as usize).iter().enumerate().map(|(k, v)| (k as f64 + 0.5) / speed + 1e-4 * v).collect();
+        let times: Vec<f64> = crate::noise(seed, (speed * seconds) as usize)
+            .iter()
+            .enumerate()
+            .map(|(k, v)| (k as f64 + 0.5) / speed + 1e-4 * v)
+            .collect();
         let train = PulseTrain::new(&times, 1).unwrap();
         let jitter = Jitter::of_pulses(&train).unwrap().unwrap();
         let expected = TAU * speed * 1e-4 / 3f64.sqrt();
