@@ -210,7 +210,10 @@ fn named_parts(of: &TrendResult) -> Vec<String> {
         let chance = chance_of_names(&grades, all);
         let chance = match all > 1 && chance > CHANCE {
             true => {
-                format!("; {all} healthy records give as many with a probability of {:.0} %", 100.0 * chance)
+                format!(
+                    "; {all} healthy records give as many with a probability of up to {:.0} %",
+                    100.0 * chance
+                )
             }
             false => String::new(),
         };
