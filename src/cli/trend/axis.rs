@@ -116,7 +116,7 @@ pub fn positions(over: &Over, records: &[Analysed]) -> Result<(TrendAxis, Vec<f6
                     "--over {name} has {} values for {} records: {}",
                     values.len(),
                     records.len(),
-                    super::few(records.iter().map(|r| r.record.name.as_str()))
+                    names::few(records.iter().map(|r| r.record.name.as_str()))
                 ));
             }
             Ok((axis(name, unit, "as given"), values.clone()))
@@ -139,7 +139,7 @@ fn no_number(name: &str, without: &Analysed) -> String {
     let hint = match (nearest(name, known()), without.number_names.is_empty()) {
         (Some(near), _) => format!("did you mean `{near}`?"),
         (None, true) => "the file states no number".into(),
-        (None, false) => format!("the file has {}", super::few(known())),
+        (None, false) => format!("the file has {}", names::few(known())),
     };
     format!(
         "--over {name}: {} states no number of this name; {hint}; or give the values, such as --over \"{name}=0,1,2\"",

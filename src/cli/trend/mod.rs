@@ -16,7 +16,7 @@ use rotordyn::io::hdf5::Store;
 use rotordyn::io::json::trend_to_json;
 use rotordyn::io::results_file::{self, SignalMeta, newest_results};
 use rotordyn::names::folder_name;
-use rotordyn::results::{TrendAxis, TrendRecord, TrendResult};
+use rotordyn::results::{TrendRecord, TrendResult};
 use rotordyn::study::trend::{common_band, complete, differences};
 use rotordyn::units::{self, FREQUENCY, SPEED};
 use rotordyn::warning::Code;
@@ -33,6 +33,7 @@ use super::{Outcome, print_written_files};
 use args::TrendArgs;
 use axis::Over;
 use files::Source;
+use names::{MAX_NAMES, few};
 use record::{Analysed, Job, analyses};
 
 /// Name of the results file.
@@ -256,18 +257,6 @@ fn take_apart(
     (records, failures)
 }
 
-/// Most names in a message.
-const MAX_NAMES: usize = 6;
-
-/// A few names, and the number of the others.
-fn few<'n>(names: impl Iterator<Item = &'n str>) -> String {
-    let names: Vec<&str> = names.collect();
-    match names.len() {
-        n if n > MAX_NAMES => format!("{} and {} more", names[..MAX_NAMES].join(", "), n - MAX_NAMES),
-        _ => names.join(", "),
-    }
-}
-
 /// Name of the trend: that of the first folder, or of the first file.
 fn title(args: &TrendArgs) -> String {
     let first = args.files.first().map_or(Path::new("records"), PathBuf::as_path);
@@ -300,9 +289,4 @@ fn write(
         spinner.finish_and_clear();
     }
     Ok(files)
-}
-
-/// For tables: the axis with its unit.
-fn axis_title(axis: &TrendAxis) -> String {
-    if axis.unit.is_empty() { axis.name.clone() } else { format!("{} {}", axis.name, axis.unit) }
 }

@@ -139,6 +139,18 @@ fn decimal_parts(name: &str) -> Vec<&str> {
     out
 }
 
+/// Most names in a message.
+pub const MAX_NAMES: usize = 6;
+
+/// A few names, and the number of the others.
+pub fn few<'n>(names: impl Iterator<Item = &'n str>) -> String {
+    let names: Vec<&str> = names.collect();
+    match names.len() {
+        n if n > MAX_NAMES => format!("{} and {} more", names[..MAX_NAMES].join(", "), n - MAX_NAMES),
+        _ => names.join(", "),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

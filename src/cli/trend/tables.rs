@@ -1,11 +1,10 @@
 //! Table and statements of a trend.
 
-use rotordyn::results::{TrendRecord, TrendResult};
+use rotordyn::results::{TrendAxis, TrendRecord, TrendResult};
 use rotordyn::signal::bearing_lines::BearingPart;
 
 use super::super::signal::line_tables::band;
 use super::super::terminal::{Terminal, number};
-use super::axis_title;
 
 /// Most rows in the terminal: the first and the last of more.
 const MAX_ROWS: usize = 100;
@@ -89,4 +88,9 @@ fn position(value: f64) -> String {
 /// "10..1000".
 fn short_band(low: f64, high: f64) -> String {
     format!("{low}..{high}")
+}
+
+/// The axis with its unit.
+fn axis_title(axis: &TrendAxis) -> String {
+    if axis.unit.is_empty() { axis.name.clone() } else { format!("{} {}", axis.name, axis.unit) }
 }
