@@ -9,7 +9,7 @@ use super::super::terminal::{Terminal, number};
 /// Most rows in the terminal: the first and the last of more.
 const MAX_ROWS: usize = 100;
 
-/// Prints one row per record, and what is said of the whole.
+/// Prints one row per record, and what is statement of the whole.
 pub fn print(terminal: &Terminal, found: &TrendResult) {
     if let Some(b) = &found.bearing {
         let o = &b.orders;
@@ -74,8 +74,8 @@ fn row(found: &TrendResult, record: &TrendRecord) -> Vec<String> {
         let lines = diagnosis.and_then(|d| d.lines);
         row.extend((0..4).map(|k| shown(lines.map(|lines| lines[k].strength), 3)));
     }
-    let said = diagnosis.map(|d| d.statement.clone());
-    row.push(record.problem.clone().or(said).unwrap_or_default());
+    let statement = diagnosis.map(|d| d.statement.clone());
+    row.push(record.problem.clone().or(statement).unwrap_or_default());
     row
 }
 

@@ -45,10 +45,10 @@ fn leak_of_a_strong_order_by_tacho_jitter() {
         squares += values.iter().map(|z| (z - mean).norm_sqr()).sum::<f64>() / values.len() as f64;
         points += 1.0;
     }
-    let (read, told) = ((squares / points).sqrt(), (predicted / points).sqrt());
+    let (read, predicted_rms) = ((squares / points).sqrt(), (predicted / points).sqrt());
     // The neighbour's own band takes a part, and the density of eight trains in 0.15 orders has few degrees of freedom.
-    assert!((0.6..1.6).contains(&(read / told)), "read {read}, told {told}");
-    println!("leak of 10 at 0.144 orders: read {read:.3}, told {told:.3}");
+    assert!((0.6..1.6).contains(&(read / predicted_rms)), "read {read}, predicted {predicted_rms}");
+    println!("leak of 10 at 0.144 orders: read {read:.3}, predicted {predicted_rms:.3}");
 }
 
 /// Without jitter, and with orders further apart than pulses can tell, nothing leaks.
