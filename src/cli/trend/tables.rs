@@ -9,7 +9,7 @@ use super::super::terminal::{Terminal, number};
 /// Most rows in the terminal: the first and the last of more.
 const MAX_ROWS: usize = 100;
 
-/// Prints one row per record, and what is statement of the whole.
+/// Prints one row per record, and the statements on the whole.
 pub fn print(terminal: &Terminal, found: &TrendResult) {
     if let Some(b) = &found.bearing {
         let o = &b.orders;
