@@ -18,6 +18,7 @@ Examples:
   rotordyn spectrogram out/overhung_rig --channels B_ax        of a stored run-up
   rotordyn bearing models/overhung_rig.toml --bearing A        loads, contacts, stiffness of one bearing
   rotordyn signal record.mat --rate \"12 kHz\" --bearing 6205   bearing diagnosis from the envelope
+  rotordyn trend pump_7/ --bearing 6205 --speed \"1480 rpm\"     several records of one machine over time
   rotordyn identify frfs.uff --band \"5 .. 180 Hz\"             modes from measured FRFs
   rotordyn catalogue 6205
 
