@@ -197,7 +197,7 @@ fn junk_and_damaged_records() {
     let problems: Vec<String> =
         column(&found, "problem").iter().map(|v| v.as_str().unwrap_or_default().to_string()).collect();
     assert!(problems[..3].iter().all(String::is_empty), "{problems:?}");
-    assert!(problems[3].contains("not finite") && problems[3].contains("1000"), "{problems:?}");
+    assert!(problems[3].contains("NaN or infinite") && problems[3].contains("1000"), "{problems:?}");
     assert!(problems[4].contains("ten revolutions of the cage"), "{problems:?}");
     assert!(!problems[5].is_empty(), "{problems:?}");
     // The short one has its statistics.
