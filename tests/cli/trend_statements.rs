@@ -77,17 +77,17 @@ fn named_parts_in_words() {
         named("..o.oi..........oo...oooo"),
         [
             "outer race named from record 22 (r21) on, 4 times before (first in r2), up to 90 %",
-            "inner race named in 1 of 25 records (r5), not in the last, up to 90 %; 25 healthy records give as many with a \
+            "inner race named in 1 of 25 records (r5), not in the last, 90 %; 25 healthy records give as many with a \
              probability of up to 100 %"
         ]
     );
     assert_eq!(
         named(".........o"),
         [
-            "outer race named in the last record only (r9), up to 90 %; 10 healthy records give as many with a probability of up to 67 %"
+            "outer race named in the last record only (r9), 90 %; 10 healthy records give as many with a probability of up to 67 %"
         ]
     );
-    assert_eq!(named("o"), ["outer race named in r0, up to 90 %"]);
+    assert_eq!(named("o"), ["outer race named in r0, 90 %"]);
     assert_eq!(named("...."), ["no part is named in 4 judged records"]);
 }
 

@@ -60,7 +60,8 @@ pub fn line_levels(found: &SignalResult) -> Option<[LineLevel; 4]> {
         let family = lines.family(part);
         let harmonics = family.lines.iter().filter(|line| line.modulation.is_none() && !line.shared);
         let level_db = harmonics.map(|line| line.level_db).reduce(f64::max).unwrap_or(f64::NAN);
-        LineLevel { strength: family.strength, level_db }
+        // The sum of no lines is −0.
+        LineLevel { strength: family.strength + 0.0, level_db }
     }))
 }
 
@@ -181,8 +182,13 @@ fn named_parts(of: &TrendResult) -> Vec<String> {
         let (Some(&first), Some(&last)) = (named.first(), named.last()) else { continue };
         let count = named.len();
         let highest = named.iter().map(|&k| judged[k].1.probability).fold(0.0, f64::max);
-        let highest =
-            if highest > 0.99 { "above 99 %".to_string() } else { format!("up to {:.0} %", 100.0 * highest) };
+        let highest = if count == 1 && highest <= 0.99 {
+            format!("{:.0} %", 100.0 * highest)
+        } else if highest > 0.99 {
+            "above 99 %".to_string()
+        } else {
+            format!("up to {:.0} %", 100.0 * highest)
+        };
         let name = |k: usize| &judged[k].0.name;
         let without = named.iter().rev().enumerate().take_while(|(back, k)| **k == all - 1 - back).count();
         let place = if count == all {
