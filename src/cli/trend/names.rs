@@ -195,8 +195,8 @@ mod tests {
             expected("load", "hp", &[0.0, 3.0])
         );
         assert_eq!(found(&["105.mat", "106.mat"]), expected("number", "", &[105.0, 106.0]));
-        assert_eq!(found(&["a_1.5.mat", "a_2.mat"]), None);
         assert_eq!(found(&["a_1.5.csv", "a_0.25.csv"]), expected("a", "", &[1.5, 0.25]));
+        assert_eq!(found(&["a_1.5.mat", "a_2.mat"]), expected("a", "", &[1.5, 2.0]));
         // One value twice, other names, a single one.
         assert_eq!(found(&["a1.mat", "a2.mat", "a1.csv"]), None);
         assert_eq!(found(&["IR007_0.mat", "OR007at6_0.mat"]), None);
