@@ -37,6 +37,7 @@ mod rival_kind;
 mod rivals;
 mod shaft_speed;
 mod strong_lines;
+mod zoom;
 
 use serde::{Deserialize, Serialize};
 
