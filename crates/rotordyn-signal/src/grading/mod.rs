@@ -30,6 +30,7 @@
 //! Records of other lengths and rates use the same coefficients.
 
 mod contest;
+mod features;
 mod grade;
 mod line_spectrum;
 mod part_fit;
@@ -45,7 +46,7 @@ use super::bearing_lines::{BearingPart, DefectFrequencies, LineSettings};
 use super::spectrum::Spectrum;
 use contest::{Contest, contest};
 use grade::FEATURES;
-pub use grade::{COEFFICIENTS, FEATURE_COUNT, Features};
+pub use grade::{COEFFICIENTS, FEATURE_COUNT, Features, MOST_CERTAIN};
 use line_spectrum::LineSpectrum;
 pub use rival_kind::RivalKind;
 pub use rivals::Rival;
@@ -195,13 +196,14 @@ impl BandGrading {
         let Contest { winner, rivals, unresolved, .. } = &self.contest;
         let mut features = self.contest.features;
         features[FEATURES.given_band] = f64::from(!by_evidence);
-        let probability = grade::probability(&features);
+        let probability = grade::probability(winner.part, &features);
         // Without a part to name every family counts, also one at the rate of the part that fits best.
         let every = || {
             find_rivals(&self.spectrum.peaks, rates.shaft, self.hz_per_unit, self.spectrum.step, |_| false)
         };
         let rivals = &if probability >= MENTIONED { rivals.clone() } else { every() };
-        let free = rivals.iter().filter(|r| r.kind == RivalKind::Periodic);
+        let step = self.spectrum.step;
+        let free = rivals.iter().filter(|r| r.kind == RivalKind::Periodic && r.is_resolved(step));
         let line_at = |rate: f64| {
             let reach = |line: f64| self.slip * line + self.spectrum.step;
             let near = |part: &BearingPart| {
