@@ -81,8 +81,9 @@ pub fn outcomes(seed: u64, count: usize) -> Vec<Outcome> {
     (0..count).into_par_iter().flat_map_iter(both).collect()
 }
 
-/// Records of each half; the coefficients in the code are those of this number.
-const HALF: usize = 1000;
+/// Numbers of records; the coefficients in the code are those of this many.
+const FITTED_RECORDS: usize = 1500;
+const TESTED_RECORDS: usize = 2500;
 
 /// Refits the coefficients, compares them with those in the code and prints the table of the other half.
 ///
@@ -91,14 +92,13 @@ const HALF: usize = 1000;
 #[ignore = "thousands of records: minutes in a release build"]
 fn grade_is_calibrated() {
     let refit = std::env::var_os("ROTORDYN_REFIT").is_some();
-    let half = std::env::var("HALF").map_or(HALF, |v| v.parse().unwrap());
-    let mut of = outcomes(FITTED, half);
+    let mut of = outcomes(FITTED, FITTED_RECORDS);
     let rows = |part: BearingPart| {
         of.iter().filter(move |o| o.candidate == part).map(|o| (&o.features, o.is_right()))
     };
     let coefficients = BearingPart::ALL.map(|part| fitted(&rows(part).collect::<Vec<_>>()));
     println!("{coefficients:.6?}");
-    let mut test = outcomes(TESTED, half);
+    let mut test = outcomes(TESTED, TESTED_RECORDS);
     if refit {
         for outcome in of.iter_mut().chain(&mut test) {
             let odds: f64 = coefficients[outcome.candidate as usize]
