@@ -29,8 +29,8 @@
 //! without a bearing line in the window of the source's first twelve harmonics, in 6 of the 454 others. With a
 //! threshold for as few false alarms (150 instead of 4.2 medians) plain finds at most 4 % of the faults below 10 dB and
 //! 26 % above. Behind noise and shaft lines only, 56 % of the outer and 55 % of the inner races at −12 to −8 dB are
-//! graded 95 % or above, 86 % and 83 % at −8 to 10 dB. Of 89 faults at varying speed 92 % are named, plain, which has
-//! no shaft angle, finds 38 %. Two of 1250 faults are given to a wrong part at 95 % or above. Of the
+//! graded 95 % or above, 86 % and 83 % at −8 to 10 dB. Of 89 faults at varying speed 90 % are named, 84 % at 95 % or
+//! above; plain, which has no shaft angle, finds 42 %. Two of 1250 faults are given to a wrong part at 95 % or above. Of the
 //! diagnoses in both bands graded 50 to 70 % 56 % are right (of 93), 70 to 85 %: 72 % (of 97), 85 to 95 %: 87 % (of
 //! 155), 95 to 99 %: 98 % (of 433), above: 99 % (of 1329). In the broad band faults below −12 dB are mostly missed.
 //! Records of other lengths and rates use the same coefficients.
