@@ -31,17 +31,17 @@ pub(super) struct Contenders<'a> {
     pub cage_evidence: f64,
 }
 
-/// Mean of how fully lines stand that could be told from shaft and mains, and the share of lines that could.
+/// Mean of how fully lines stand that are distinct from those of shaft and mains, and the share of lines that are.
 fn standing<'a>(lines: impl Iterator<Item = &'a FittedLine>, known: &KnownLines) -> (f64, f64) {
-    let (mut sum, mut told, mut all) = (0.0, 0.0, 0.0);
+    let (mut sum, mut distinct, mut all) = (0.0, 0.0, 0.0);
     for line in lines {
         all += 1.0;
         if !known.contains(line.frequency) {
-            told += 1.0;
+            distinct += 1.0;
             sum += if line.own { (line.evidence / FULL).min(1.0) } else { 0.0 };
         }
     }
-    if told > 0.0 { (sum / told, told / all) } else { (0.0, 0.0) }
+    if distinct > 0.0 { (sum / distinct, distinct / all) } else { (0.0, 0.0) }
 }
 
 /// The quantities the grade depends on, see [`FEATURES`].
@@ -60,7 +60,7 @@ pub(super) fn features(of: &Contenders, spectrum: &LineSpectrum, known: &KnownLi
     let strongest_rival = free.map(|r| r.amplitude).fold(0.0, f64::max);
     // Impacts of the cage have many harmonics, a modulation at FTF few.
     let counted = if fit.part == BearingPart::Cage { 8 } else { 4 };
-    let (harmonics, told) = standing(fit.main_lines().filter(|l| l.harmonic <= counted), known);
+    let (harmonics, distinct) = standing(fit.main_lines().filter(|l| l.harmonic <= counted), known);
     let side = fit.lines.iter().filter(|l| l.modulation.is_some() && l.harmonic <= 2);
     let (side_bands, _) = standing(side, known);
     let first = fit.main_lines().find(|l| l.harmonic == 1).map_or(0.0, |l| l.amplitude);
@@ -74,7 +74,7 @@ pub(super) fn features(of: &Contenders, spectrum: &LineSpectrum, known: &KnownLi
     out[FEATURES.rival] = (level(strongest_rival) + 3.0) / 3.0;
     out[FEATURES.shared] = if fit.evidence() > 0.0 { 1.0 - own / fit.evidence() } else { 1.0 };
     out[FEATURES.harmonics] = harmonics;
-    out[FEATURES.told] = told;
+    out[FEATURES.distinct] = distinct;
     out[FEATURES.fundamental] = (first / highest).max(1e-9).ln().max(-3.0);
     out[FEATURES.side_bands] = side_bands;
     out[FEATURES.runner_up] = (of.runner_up.ln_1p() - evidence).clamp(-6.0, 2.0);

@@ -17,7 +17,7 @@ pub(super) struct FeaturePlaces {
     /// Mean of how fully the first four harmonics (cage: eight) stand that coincide with no line of shaft or mains.
     pub harmonics: usize,
     /// Share of these harmonics that coincide with no such line.
-    pub told: usize,
+    pub distinct: usize,
     /// ln of the first harmonic over the highest.
     pub fundamental: usize,
     /// Mean of how fully the side bands of the first two harmonics stand.
@@ -54,7 +54,7 @@ pub(super) const FEATURES: FeaturePlaces = FeaturePlaces {
     rival: 4,
     shared: 5,
     harmonics: 6,
-    told: 7,
+    distinct: 7,
     fundamental: 8,
     side_bands: 9,
     runner_up: 10,
