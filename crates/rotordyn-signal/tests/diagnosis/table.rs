@@ -34,6 +34,9 @@ impl EqualFalse {
     }
 }
 
+/// What a row of the table counts.
+type Condition = fn(&Outcome) -> bool;
+
 /// Found by SNR and part, false by kind, calibration by grade.
 pub fn print_table(of: &[&Outcome], equal: &EqualFalse) {
     let EqualFalse { probability, level } = *equal;
@@ -53,14 +56,14 @@ pub fn print_table(of: &[&Outcome], equal: &EqualFalse) {
             println!("| {name} | {} | {} |", of_grade.join(" | "), of_plain.join(" | "));
         }
     };
-    let backgrounds: [(&str, fn(&Outcome) -> bool); 3] = [
+    let backgrounds: [(&str, Condition); 3] = [
         ("noise and shaft lines", |o| o.other.is_none() && !o.varying),
         ("another source", |o| o.other.is_some() && !o.varying),
         ("varying speed", |o| o.varying),
     ];
     for (low, high) in [(-20.0, -12.0), (-12.0, -8.0), (-8.0, 10.0), (10.0, 100.0)] {
         for part in BearingPart::ALL {
-            let own = |inside: fn(&Outcome) -> bool| -> Vec<&Outcome> {
+            let own = |inside: Condition| -> Vec<&Outcome> {
                 let is_own = |o: &&Outcome| o.part == Some(part) && (low..high).contains(&o.snr) && inside(o);
                 of.iter().copied().filter(is_own).collect()
             };
