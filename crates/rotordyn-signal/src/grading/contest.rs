@@ -1,10 +1,10 @@
 //! Contest of the bearing parts with each other and with their rivals in one envelope spectrum.
 
 use super::super::bearing_lines::{BearingPart, DefectFrequencies, LineSettings};
+use super::features::{Contenders, features};
 use super::grade::{FEATURES, Features};
 use super::line_spectrum::{KnownLines, LinePeak, LineSpectrum};
 use super::part_fit::{FittedLine, PRESENT, PartFit};
-use super::rival_kind::RivalKind;
 use super::rivals::{Rival, find_rivals};
 
 /// Amplitude ratio from which a neighbouring line dominates another on its skirt.
@@ -21,8 +21,8 @@ const CAGE_HARMONICS: usize = 6;
 /// Evidence of a line that calls for an explanation.
 const COINCIDENCE_EVIDENCE: f64 = 30.0;
 
-/// Amplitude of a line between a part's harmonics, over the highest of these, that counts fully for a slower family.
-const FRACTION_SHARE: f64 = 0.25;
+/// ln(1 + evidence) above which bands do not differ.
+const MOST: f64 = 12.0;
 
 /// What one envelope spectrum says: the best part, what competes with it.
 pub(super) struct Contest {
@@ -94,13 +94,16 @@ pub(super) fn contest(
     let ambiguity =
         others().filter(|k| fits[*k].part != BearingPart::Cage).map(|k| own[k]).fold(0.0, f64::max);
     let unresolved = unresolved(spectrum, rates, settings, &known);
-    let features = features(&fits[best], &rivals[best], [runner_up, ambiguity], spectrum, &known);
+    let cage_evidence = own[BearingPart::Cage as usize];
+    let contenders =
+        Contenders { best: &fits[best], rivals: &rivals[best], runner_up, ambiguity, cage_evidence };
+    let features = features(&contenders, spectrum, &known);
     // FTF alone is in every band that a ball's impacts reach: a cage is to show its many harmonics.
     let few = match fits[best].part {
-        BearingPart::Cage => CAGE_WITHOUT_HARMONICS * (1.0 - features[FEATURES.harmonics]),
+        BearingPart::Cage => CAGE_WITHOUT_HARMONICS * (1.0 - features[FEATURES.standing]),
         _ => 0.0,
     };
-    let score = features[FEATURES.evidence] - features[FEATURES.unexplained].max(0.0) - few;
+    let score = own[best].ln_1p().min(MOST) - (3.0 * features[FEATURES.unexplained] - 3.0).max(0.0) - few;
     let (winner, rivals) = (fits[best].clone(), rivals[best].clone());
     Contest { winner, rivals, features, score, unresolved }
 }
@@ -211,78 +214,4 @@ fn unresolved(
     let mut found = BearingPart::ALL.into_iter().filter_map(coincidence).collect::<Vec<_>>();
     found.sort_by(|a, b| b.2.amplitude.total_cmp(&a.2.amplitude));
     found.into_iter().next()
-}
-
-/// The quantities the grade depends on, see [`FEATURES`].
-fn features(
-    fit: &PartFit,
-    rivals: &[Rival],
-    [runner_up, ambiguity]: [f64; 2],
-    spectrum: &LineSpectrum,
-    known: &KnownLines,
-) -> Features {
-    let step = spectrum.step;
-    let own = fit.own_evidence();
-    let amplitude = fit.own_amplitude();
-    let level = |a: f64| if amplitude > 0.0 { (a / amplitude).ln().clamp(-3.0, 3.0) } else { 3.0 };
-    let unexplained = spectrum
-        .peaks
-        .iter()
-        .find(|p| !fit.explains(p.frequency, known.shaft, step) && !known.contains(p.frequency));
-    let free = rivals.iter().filter(|r| r.kind == RivalKind::Periodic);
-    let strongest_rival = free.map(|r| r.amplitude).fold(0.0, f64::max);
-    let present = |l: &&FittedLine| l.own && l.evidence > PRESENT;
-    // Impacts of the cage have many harmonics, a modulation at FTF few.
-    let counted = if fit.part == BearingPart::Cage { 8 } else { 4 };
-    let main = fit.main_lines().filter(|l| l.harmonic <= counted).filter(present).count();
-    let side = side_bands(fit, 2);
-    let first = fit.main_lines().find(|l| l.harmonic == 1).map_or(0.0, |l| l.amplitude);
-    let highest = fit.main_lines().map(|l| l.amplitude).fold(f64::MIN_POSITIVE, f64::max);
-    let is = |part: BearingPart| f64::from(fit.part == part);
-    let mut out = [0.0; FEATURES.count];
-    out[FEATURES.constant] = 1.0;
-    out[FEATURES.inner] = is(BearingPart::InnerRace);
-    out[FEATURES.ball] = is(BearingPart::Ball);
-    out[FEATURES.cage] = is(BearingPart::Cage);
-    out[FEATURES.evidence] = own.ln_1p().min(12.0);
-    out[FEATURES.unexplained] = level(unexplained.map_or(0.0, |p| p.amplitude));
-    out[FEATURES.rival] = level(strongest_rival);
-    out[FEATURES.shared] = if fit.evidence() > 0.0 { 1.0 - own / fit.evidence() } else { 1.0 };
-    out[FEATURES.harmonics] = main as f64 / counted as f64;
-    out[FEATURES.fundamental] = (first / highest).max(1e-9).ln().max(-3.0);
-    out[FEATURES.inner_side_bands] = is(BearingPart::InnerRace) * side as f64 / 8.0;
-    out[FEATURES.ball_side_bands] = is(BearingPart::Ball) * side as f64 / 8.0;
-    out[FEATURES.runner_up] = (runner_up.ln_1p() - own.ln_1p()).clamp(-6.0, 2.0);
-    out[FEATURES.ambiguity] = (ambiguity.ln_1p() - own.ln_1p()).clamp(-6.0, 2.0);
-    out[FEATURES.fraction] = fraction_evidence(fit, spectrum, known);
-    for (k, place) in [FEATURES.rival, FEATURES.shared, FEATURES.harmonics].into_iter().enumerate() {
-        for (n, part) in [FEATURES.inner, FEATURES.ball, FEATURES.cage].into_iter().enumerate() {
-            out[FEATURES.by_part + 3 * k + n] = out[place] * out[part];
-        }
-    }
-    out
-}
-
-/// Mean of w² ln(1 + evidence) at fractions j f/n of the defect frequency: a slower family has them, the bearing not.
-///
-/// w is the line's amplitude over a quarter of the part's highest, at most 1: harmonics of a slower family differ
-/// little in height, while a record with little noise has weak lines of many origins everywhere.
-fn fraction_evidence(fit: &PartFit, spectrum: &LineSpectrum, known: &KnownLines) -> f64 {
-    let highest = FRACTION_SHARE * fit.own_amplitude();
-    let relative = |f: f64| {
-        let amplitude = spectrum.highest(f, 1.05 * spectrum.step).map_or(0.0, |(_, a)| a);
-        if amplitude < highest { (amplitude / highest).powi(2) } else { 1.0 }
-    };
-    let mean = |n: usize| {
-        let places = (1..2 * n).filter(|j| j % n != 0).map(|j| j as f64 * fit.base / n as f64);
-        let own = |f: &f64| fit.explains(*f, known.shaft, spectrum.step) || known.contains(*f);
-        let values: Vec<f64> = places
-            .filter(|f| !own(f))
-            .map(|f| relative(f) * (spectrum.evidence(f) - 1.0).max(0.0).ln_1p())
-            .collect();
-        if values.is_empty() { 0.0 } else { values.iter().sum::<f64>() / values.len() as f64 }
-    };
-    // Half of 2 BSF is BSF itself: unequal impacts on the two races.
-    let from = if fit.part == BearingPart::Ball { 3 } else { 2 };
-    (from..=6).map(mean).fold(0.0, f64::max)
 }

@@ -123,6 +123,21 @@ impl KnownLines {
         self.mains(frequency).map(|rate| (RivalKind::Mains, rate))
     }
 
+    /// 1 at a line of shaft or mains, falling to 0 at four tolerances from it.
+    pub fn nearness(&self, frequency: f64) -> f64 {
+        let near = |rate: f64, relative: f64| {
+            let number = (frequency / rate).round().max(1.0);
+            let distance = (frequency - number * rate).abs() / (self.step + relative * frequency);
+            (1.0 - 0.25 * distance).max(0.0)
+        };
+        let mains = |rate: f64| {
+            self.hz_per_unit
+                .filter(|unit| frequency * unit <= Self::MAINS_END)
+                .map_or(0.0, |unit| near(rate / unit, 3e-4))
+        };
+        MAINS.into_iter().map(mains).fold(near(self.shaft, 7e-4), f64::max)
+    }
+
     /// Tolerance: a bin, and 0.07 % of the stated speed.
     fn is_shaft(&self, frequency: f64) -> bool {
         let order = (frequency / self.shaft).round();

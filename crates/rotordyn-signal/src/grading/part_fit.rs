@@ -129,22 +129,24 @@ impl PartFit {
 
     /// Whether a frequency is a line of the family, with the side bands that its kind may have.
     ///
-    /// Outer race ± 4 f_r (unbalance, misalignment), inner race ± 6 f_r, both ± 2 FTF (unequal balls), ball ± 4 FTF. The ball's family has FTF itself, which
+    /// Outer race ± 4 f_r (unbalance, misalignment), inner race ± 6 f_r, both ± 2 FTF (unequal balls), ball ± 5 FTF,
+    /// ± 2 f_r. The ball's family has FTF itself, which
     /// its load modulation gives, and odd multiples of BSF, which unequal impacts on the two races give.
     pub fn explains(&self, frequency: f64, shaft: f64, step: f64) -> bool {
         let near = self.tolerance(frequency, step);
         let (base, side, count) = match self.part {
             BearingPart::OuterRace => (self.base, shaft, 4),
             BearingPart::InnerRace => (self.base, shaft, 6),
-            BearingPart::Ball => (0.5 * self.base, self.cage, 4),
+            BearingPart::Ball => (0.5 * self.base, self.cage, 5),
             BearingPart::Cage => return near_multiple(frequency, self.base, 40, near),
         };
         if self.part == BearingPart::Ball && near_multiple(frequency, self.cage, 6, near) {
             return true;
         }
         let carries = |offset: f64| near_multiple(frequency - offset, base, 3 * HARMONICS, near);
-        let by_cage = |n: i32| self.part != BearingPart::Ball && carries(f64::from(n) * self.cage);
-        (-count..=count).any(|n| carries(f64::from(n) * side)) || (-2..=2).any(by_cage)
+        let other = if self.part == BearingPart::Ball { shaft } else { self.cage };
+        let by_other = |n: i32| carries(f64::from(n) * other);
+        (-count..=count).any(|n| carries(f64::from(n) * side)) || (-2..=2).any(by_other)
     }
 
     /// Half-width of its lines: resolution, and slip from impact to impact, which widens harmonic h with h².

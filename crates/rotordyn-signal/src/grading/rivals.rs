@@ -54,6 +54,11 @@ impl Rival {
                 <= tolerance(self.kind, frequency, step) + self.wander() * frequency
     }
 
+    /// Whether its rate is so high that its harmonics leave most of the axis free: a slower one has every line.
+    pub(super) fn is_resolved(&self, step: f64) -> bool {
+        2.0 * tolerance(self.kind, self.rate, step) <= DENSE * self.rate
+    }
+
     /// Whether it explains a line of this amplitude: a free family also needs comparable harmonics beside it.
     ///
     /// The lines h f + n f_r of a damaged part lie near the multiples of a fraction of f_r wherever f/f_r is

@@ -4,16 +4,22 @@ use serde::{Deserialize, Serialize};
 
 use super::super::SignalError;
 use super::super::error::{check, check_rate, check_record};
-use super::super::ridge::interpolate_peak;
-use super::super::spectrum::{Level, Spectrum, amplitude_spectrum};
+use super::super::spectrum::{Level, amplitude_spectrum};
 use super::super::window::WindowKind;
 use super::line_spectrum::LineSpectrum;
+use super::zoom::{WindowedRecord, Zoom};
 
 /// Harmonics of the shaft speed that are searched.
 const HARMONICS: usize = 10;
-/// Evidence from which a harmonic stands, and that one of them counts at most: no line alone decides.
+/// Evidence from which a harmonic stands.
 const STANDS: f64 = 9.0;
+/// Evidence of one harmonic that counts fully, more by its logarithm: no line alone decides.
 const LIMIT: f64 = 40.0;
+const EXCESS: f64 = 10.0;
+/// Standard deviation of a line's frequency times √q in bins, q its power over the noise's, behind a Hann window.
+///
+/// σ² q = ∫w²t² / (32 π² ∫w² (∫wt²)²) with w = cos² πt on −½..½; without a window it would be the Cramér–Rao bound.
+const HANN_DEVIATION: f64 = 0.487;
 /// Harmonics that make a family: chance gives three within a bin of one comb in fewer than 1 of 1000 noise
 /// records (each stands with probability 3 × 10⁻⁵ per trial, some thousand independent trials).
 const FAMILY: usize = 3;
@@ -44,11 +50,12 @@ pub enum SpeedFinding {
 
 /// Shaft speed from the harmonics 1x to 10x in a record's spectrum, within ± `range` of the stated speed.
 ///
-/// Maximises Σ min(evidence(n f), 40) over f; then f = Σ w f_n/n with the interpolated peaks f_n, w = (n/σ_n)²
-/// and σ_n = Δf (0.02 + 0.55/√q_n), q_n the line's power over the noise. `record` \[any unit\], `sample_rate`
-/// \[Hz\], `stated` \[rev/s\], `range` relative, 0 to 0.2. The uncertainty is the larger of that of the weights and
-/// of the scatter of f_n/n. Errors: NaN, a speed or range out of range, fewer than ten revolutions.
-/// Source for σ_n: Rife and Boorstyn, IEEE Trans. Inf. Theory 20 (1974), for a Hann window.
+/// Maximises Σ evidence(n f) over f, large evidence counted by its logarithm, then Σ ln(1 + q(n f)) between the
+/// bins, q = A² over the noise's. Then f = Σ w f_n/n over the harmonics' own maxima f_n, w = (n/σ_n)² and
+/// σ_n = 0.487 Δf/√q_n, which is 1.53 times the Cramér–Rao bound: the price of the Hann window. `record`
+/// \[any unit\], `sample_rate` \[Hz\], `stated` \[rev/s\], `range` relative, 0 to 0.2. Where the f_n/n scatter more than
+/// noise explains the uncertainty is that of their scatter. Errors: NaN, a speed or range out of range, fewer than
+/// ten revolutions. Source for σ_n: Rife and Boorstyn, Bell Syst. Tech. J. 55 (1976).
 pub fn shaft_speed(
     record: &[f64],
     sample_rate: f64,
@@ -67,10 +74,8 @@ pub fn shaft_speed(
     let mean = record.iter().sum::<f64>() / record.len() as f64;
     let centred: Vec<f64> = record.iter().map(|x| x - mean).collect();
     let spectrum = amplitude_spectrum(&centred, sample_rate, WindowKind::Hann, Level::Peak)?;
-    let near = |speed: f64| {
-        let lines = LineSpectrum::new(&spectrum, speed, None);
-        family(&spectrum, &lines, speed, range)
-    };
+    let windowed = WindowedRecord::new(&centred);
+    let near = |speed: f64| family(&windowed, &LineSpectrum::new(&spectrum, speed, None), speed, range);
     if let Some(speed) = near(stated) {
         return Ok(SpeedFinding::Found(speed));
     }
@@ -83,42 +88,67 @@ pub fn shaft_speed(
 }
 
 /// The family of harmonics within ± `range` of a speed, if enough of them stand.
-fn family(spectrum: &Spectrum, lines: &LineSpectrum, stated: f64, range: f64) -> Option<RecordSpeed> {
+fn family(record: &WindowedRecord, lines: &LineSpectrum, stated: f64, range: f64) -> Option<RecordSpeed> {
     let step = lines.step;
-    let harmonics = HARMONICS.min((lines.end() / (stated * (1.0 + range))) as usize);
-    let trial_step = step / HARMONICS as f64;
-    let trials = (range * stated / trial_step).ceil() as i64;
-    let score =
-        |speed: f64| (1..=harmonics).map(|n| lines.evidence(n as f64 * speed).min(LIMIT)).sum::<f64>();
-    let mut best = (f64::NEG_INFINITY, stated);
-    for trial in (0..=trials).flat_map(|t| [t, -t]) {
-        let speed = stated + trial as f64 * trial_step;
-        let value = score(speed);
-        if value > best.0 {
-            best = (value, speed);
-        }
-    }
-    let (_, speed) = best;
-    let standing = (1..=harmonics).filter_map(|n| {
-        let place = n as f64 * speed;
-        if lines.evidence(place) < STANDS {
-            return None;
-        }
-        let (at, amplitude) = lines.highest(place, 1.5 * step)?;
-        let bin = (at / step).round() as usize;
-        let peak = interpolate_peak(&spectrum.frequencies, &spectrum.values, bin);
-        let ratio = lines.power_ratio(bin, amplitude);
-        let deviation = step * (0.02 + 0.55 / ratio.sqrt()) / n as f64;
-        Some((n, peak.position / n as f64, deviation))
-    });
-    let standing: Vec<(usize, f64, f64)> = standing.collect();
-    if standing.len() < FAMILY || standing.iter().all(|(n, ..)| *n > 2) {
+    let count = HARMONICS.min((lines.end() / (stated * (1.0 + range))) as usize);
+    let score = |speed: f64| (1..=count).map(|n| limited(lines.evidence(n as f64 * speed))).sum::<f64>();
+    let trials = (range * stated * HARMONICS as f64 / step).ceil() as i64;
+    let coarse = best_of(stated, step / HARMONICS as f64, trials, score);
+    let standing: Vec<usize> = (1..=count).filter(|n| lines.evidence(*n as f64 * coarse) >= STANDS).collect();
+    if standing.len() < FAMILY || standing.iter().all(|n| *n > 2) {
         return None;
     }
-    let weights: f64 = standing.iter().map(|(.., s)| 1.0 / (s * s)).sum();
-    let mean = standing.iter().map(|(_, f, s)| f / (s * s)).sum::<f64>() / weights;
-    let scatter = standing.iter().map(|(_, f, s)| ((f - mean) / s).powi(2)).sum::<f64>();
+    // Power over the noise's of an amplitude near harmonic n.
+    let ratio =
+        |n: usize, amplitude: f64| lines.power_ratio((n as f64 * coarse / step).round() as usize, amplitude);
+    let zooms: Vec<(usize, Zoom)> =
+        standing.iter().map(|&n| (n, record.zoom(n as f64 * coarse / step))).collect();
+    let likelihood = |speed: f64| {
+        let at = |(n, zoom): &(usize, Zoom)| ratio(*n, zoom.amplitude(*n as f64 * speed / step)).ln_1p();
+        zooms.iter().map(at).sum::<f64>()
+    };
+    // A bin of the highest harmonic on either side, in twentieths of it.
+    let highest = standing.last().copied().unwrap_or(1) as f64;
+    let speed = best_of(coarse, step / (20.0 * highest), 20, likelihood);
+    let maximum = |&n: &usize| {
+        let (bin, amplitude) = record.zoom(n as f64 * speed / step).peak(1.0)?;
+        let power = ratio(n, amplitude);
+        (power > 1.0).then(|| (bin * step / n as f64, HANN_DEVIATION * step / (power.sqrt() * n as f64)))
+    };
+    let found: Vec<(f64, f64)> = standing.iter().filter_map(maximum).collect();
+    if found.len() < FAMILY {
+        return None;
+    }
+    let weights: f64 = found.iter().map(|(_, s)| 1.0 / (s * s)).sum();
+    let mean = found.iter().map(|(f, s)| f / (s * s)).sum::<f64>() / weights;
+    let scatter = found.iter().map(|(f, s)| ((f - mean) / s).powi(2)).sum::<f64>();
+    let free = (found.len() - 1) as f64;
     // Lines that scatter more than their noise: the speed is not as constant as that.
-    let excess = (scatter / (standing.len() - 1) as f64).max(1.0);
-    Some(RecordSpeed { speed: mean, uncertainty: (excess / weights).sqrt(), harmonics: standing.len() })
+    let excess = if scatter > likely_scatter(free) { scatter / free } else { 1.0 };
+    Some(RecordSpeed { speed: mean, uncertainty: (excess / weights).sqrt(), harmonics: found.len() })
+}
+
+/// Evidence that counts in the first search: the top of a strong line is preferred to its skirts.
+fn limited(evidence: f64) -> f64 {
+    if evidence <= LIMIT { evidence } else { LIMIT + EXCESS * (evidence / LIMIT).ln() }
+}
+
+/// The trial centre + k step, |k| ≤ `trials`, of the highest value; of equal ones the nearest to the centre.
+fn best_of(centre: f64, step: f64, trials: i64, value: impl Fn(f64) -> f64) -> f64 {
+    let mut best = (f64::NEG_INFINITY, centre);
+    for trial in (0..=trials).flat_map(|t| [t, -t]) {
+        let place = centre + trial as f64 * step;
+        let found = value(place);
+        if found > best.0 {
+            best = (found, place);
+        }
+    }
+    best.1
+}
+
+/// What χ² of ν degrees of freedom exceeds once in a thousand times (Wilson and Hilferty, Proc. Natl. Acad. Sci. 17 (1931)).
+fn likely_scatter(free: f64) -> f64 {
+    const NORMAL: f64 = 3.090;
+    let part = 2.0 / (9.0 * free);
+    free * (1.0 - part + NORMAL * part.sqrt()).powi(3)
 }

@@ -10,12 +10,12 @@ use super::RATE;
 
 /// Line over the median of the spectrum up to 3 BPFI from which a part is named: noise exceeds it among the
 /// bins of the four windows in about one record of a hundred.
-const THRESHOLD: f64 = 4.2;
+pub const THRESHOLD: f64 = 4.2;
 /// Search window, relative to the defect frequency.
 const SLIP: f64 = 0.02;
 
-/// The part with the highest line above the threshold.
-pub fn plain_diagnosis(record: &[f64], rates: &DefectFrequencies) -> Option<BearingPart> {
+/// The part with the highest line in its window, and that line over the median.
+pub fn plain_diagnosis(record: &[f64], rates: &DefectFrequencies) -> (BearingPart, f64) {
     // Bands at least 2.5 times the highest defect frequency wide.
     let highest = rates.inner.max(2.0 * rates.ball);
     let depth = ((0.5 * RATE / (2.5 * highest)).log2().floor() as usize).clamp(1, 6);
@@ -33,6 +33,6 @@ pub fn plain_diagnosis(record: &[f64], rates: &DefectFrequencies) -> Option<Bear
         window.iter().copied().fold(0.0, f64::max) / median
     };
     let levels = BearingPart::ALL.map(|part| (level(part), part));
-    let best = levels.into_iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
-    (best.0 > THRESHOLD).then_some(best.1)
+    let best = levels.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+    (best.1, best.0)
 }

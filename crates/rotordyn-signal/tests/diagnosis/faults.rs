@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use rotordyn_signal::bearing_lines::{BearingPart, DefectFrequencies};
 
-use super::SECONDS;
+use super::clock::Clock;
 use super::path::{TransferPath, arrivals};
 use super::random::Random;
 
@@ -30,6 +30,22 @@ fn load(angle: f64, extent: f64) -> f64 {
     (1.0 - (1.0 - angle.cos()) / (2.0 * extent)).max(0.0).powf(1.5)
 }
 
+/// Places of the defects of a race over the ball spacing, and how hard each is struck.
+fn draw_defects(random: &mut Random, balls: usize) -> Vec<(f64, f64)> {
+    if !random.chance(0.15) {
+        return vec![(0.0, 1.0)];
+    }
+    let count = random.integer(2, 8);
+    // 3 to 15 degrees apart.
+    let pitch = random.range(3.0, 15.0) * balls as f64 / 360.0;
+    let even = random.chance(0.5);
+    let defect = |k: usize| {
+        let (shift, share) = (random.range(-0.4, 0.4), random.range(0.3, 1.0));
+        if even { (k as f64 * pitch, 1.0) } else { ((k as f64 + shift) * pitch, share) }
+    };
+    (0..count).map(defect).collect()
+}
+
 /// Response to the impacts of one damaged part.
 ///
 /// The cage slips by up to 2 % of its speed in either direction, which moves BPFO = Z FTF and
@@ -37,8 +53,15 @@ fn load(angle: f64, extent: f64) -> f64 {
 /// by 20 %. A defect of the inner race passes the load zone with the shaft, one of a ball with the cage; a
 /// ball strikes both races in turn, not equally hard. Unbalance and misalignment modulate the impacts of any part
 /// by 1x, 2x and 3x, in a third of the records strongly, unequal balls by the cage. One record in five has
-/// impacts as regular as a simulated machine's: no jitter, all equally hard.
-pub fn fault(random: &mut Random, part: BearingPart, rates: &DefectFrequencies, balls: usize) -> Vec<f64> {
+/// impacts as regular as a simulated machine's: no jitter, all equally hard. One damaged race in seven has several
+/// defects, evenly spaced or not: every ball strikes all of them. `clock`: of the machine.
+pub fn fault(
+    random: &mut Random,
+    part: BearingPart,
+    rates: &DefectFrequencies,
+    balls: usize,
+    clock: &Clock,
+) -> Vec<f64> {
     let slip = 0.02 * random.unit() * random.sign();
     let spin_slip = 0.02 * random.unit() * random.sign();
     let regular = random.chance(0.2);
@@ -70,12 +93,19 @@ pub fn fault(random: &mut Random, part: BearingPart, rates: &DefectFrequencies, 
         BearingPart::OuterRace | BearingPart::Cage => 1.0,
     };
     let spread = if regular { 0.0 } else { 0.2 };
+    let defects = match part {
+        BearingPart::OuterRace | BearingPart::InnerRace => draw_defects(random, balls),
+        BearingPart::Ball | BearingPart::Cage => vec![(0.0, 1.0)],
+    };
     let times = arrivals(random, rate, jitter);
-    let impacts: Vec<(f64, f64)> = times
-        .iter()
-        .enumerate()
-        .map(|(k, &time)| (time, machine(time) * strength(k, time) * (1.0 + spread * random.normal())))
-        .collect();
-    debug_assert!(times.iter().all(|t| *t < SECONDS));
-    path.impacts(&impacts)
+    let mut impacts = Vec::new();
+    for (k, passage) in times.iter().enumerate() {
+        for (place, share) in &defects {
+            let time = passage + place / rate;
+            let level = share * (1.0 + spread * random.normal());
+            impacts.push((time, machine(time) * strength(k, time) * level));
+        }
+    }
+    impacts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    path.impacts(&impacts, clock)
 }

@@ -2,9 +2,10 @@
 
 use rotordyn_signal::bearing_lines::{BearingPart, DefectFrequencies};
 
+use super::clock::Clock;
 use super::faults::{draw_bearing, fault};
 use super::others::Other;
-use super::path::{coloured, power, scaled_to, sum, tones, white};
+use super::path::{coloured, machine_tones, power, scaled_to, sum, white};
 use super::random::Random;
 use super::{RATE, SECONDS};
 
@@ -20,30 +21,36 @@ pub struct Generated {
     pub snr: f64,
     /// Repetition rates of the other source \[Hz\].
     pub rivals: Vec<f64>,
+    pub clock: Clock,
 }
 
 /// Share of the faulty records with next to no noise, as simulations give them.
 const CLEAN: f64 = 0.12;
+/// Share of the records whose speed varies.
+const VARYING: f64 = 0.08;
 /// Share of the records that are shorter than the others.
 const SHORT: f64 = 0.2;
 
+/// Sequence of the draws of the speed.
+const SPEED_SEED: u64 = 0x5EED;
+
 /// Lines of the shaft, and noise.
-fn machine(random: &mut Random, shaft: f64) -> Vec<f64> {
+fn machine(random: &mut Random, shaft: f64, clock: &Clock) -> Vec<f64> {
     let noise = if random.chance(0.5) { white(random) } else { coloured(random) };
     let noise = scaled_to(noise, 1.0);
     if random.chance(0.4) {
         return noise;
     }
-    sum(&noise, &shaft_lines(random, shaft), 1.0)
+    sum(&noise, &shaft_lines(random, shaft, clock), 1.0)
 }
 
 /// 1x to 6x, of falling level.
-fn shaft_lines(random: &mut Random, shaft: f64) -> Vec<f64> {
+fn shaft_lines(random: &mut Random, shaft: f64, clock: &Clock) -> Vec<f64> {
     let level = random.log_range(0.01, 0.7);
     let lines: Vec<_> = (1..=6)
         .map(|n| (f64::from(n) * shaft, level * random.unit() / f64::from(n), random.phase()))
         .collect();
-    tones(&lines)
+    machine_tones(&lines, clock)
 }
 
 impl Generated {
@@ -51,10 +58,14 @@ impl Generated {
     pub fn new(seed: u64, number: usize) -> Self {
         let faulty = number.is_multiple_of(2);
         let part = BearingPart::ALL[number / 2 % 4];
-        let snr = None;
+        let speed = &mut Random::of_record(seed ^ SPEED_SEED, number);
+        let clock = if speed.chance(VARYING) { Clock::draw(speed) } else { Clock::STEADY };
         let other = Other::ALL[number / 2 % Other::ALL.len()];
-        let mut made =
-            if faulty { Self::faulty(seed, number, part, snr) } else { Self::healthy(seed, number, other) };
+        let mut made = if faulty {
+            Self::faulty(seed, number, part, clock)
+        } else {
+            Self::healthy(seed, number, other, clock)
+        };
         let random = &mut Random::of_record(!seed, number);
         if random.chance(SHORT) {
             // Twelve turns of the cage at least.
@@ -69,46 +80,55 @@ impl Generated {
         self.record.len() as f64 / RATE
     }
 
-    /// A fault of `part` at −20 to 10 dB, or as given, in front of a machine; one in eight 30 to 80 dB over its noise.
-    pub fn faulty(seed: u64, number: usize, part: BearingPart, snr: Option<f64>) -> Self {
+    /// A fault of `part` at −20 to 10 dB in front of a machine; one in eight 30 to 80 dB over its noise.
+    pub fn faulty(seed: u64, number: usize, part: BearingPart, clock: Clock) -> Self {
         let random = &mut Random::of_record(seed, number);
         let (rates, balls) = draw_bearing(random);
         let drawn = random.range(-20.0, 10.0);
-        let clean = random.chance(CLEAN) && snr.is_none();
-        let snr = if clean { random.range(30.0, 80.0) } else { snr.unwrap_or(drawn) };
+        let clean = random.chance(CLEAN);
+        let snr = if clean { random.range(30.0, 80.0) } else { drawn };
         if clean {
-            let signal = scaled_to(fault(random, part, &rates, balls), 1.0);
-            let background = sum(&shaft_lines(random, rates.shaft), &white(random), 10f64.powf(-0.05 * snr));
+            let signal = scaled_to(fault(random, part, &rates, balls, &clock), 1.0);
+            let background =
+                sum(&shaft_lines(random, rates.shaft, &clock), &white(random), 10f64.powf(-0.05 * snr));
             let record = sum(&background, &signal, 1.0);
-            return Generated { record, rates, part: Some(part), other: None, snr, rivals: vec![] };
+            return Generated { record, rates, part: Some(part), other: None, snr, rivals: vec![], clock };
         }
-        let mut background = machine(random, rates.shaft);
+        let mut background = machine(random, rates.shaft, &clock);
         let steady = [Other::Sine, Other::GearMesh, Other::Mains, Other::CyclicNoise, Other::Blades];
         let other = random.chance(0.3).then(|| steady[random.integer(0, steady.len() - 1)]);
         let mut rivals = Vec::new();
         if let Some(other) = other {
-            let (record, rates) = other.draw(random, rates.shaft);
+            let (record, rates) = other.draw(random, rates.shaft, &clock);
             let level = 10f64.powf(random.range(-1.0, 0.5));
             background = sum(&background, &scaled_to(record, level), 1.0);
             rivals = rates;
         }
-        let signal = fault(random, part, &rates, balls);
+        let signal = fault(random, part, &rates, balls, &clock);
         let signal = scaled_to(signal, power(&background) * 10f64.powf(0.1 * snr));
-        Generated { record: sum(&background, &signal, 1.0), rates, part: Some(part), other, snr, rivals }
+        Generated {
+            record: sum(&background, &signal, 1.0),
+            rates,
+            part: Some(part),
+            other,
+            snr,
+            rivals,
+            clock,
+        }
     }
 
     /// A source without fault: alone (60 dB above the sensor's noise) or −10 to 20 dB over a machine.
-    pub fn healthy(seed: u64, number: usize, other: Other) -> Self {
+    pub fn healthy(seed: u64, number: usize, other: Other, clock: Clock) -> Self {
         let random = &mut Random::of_record(seed, number);
         let (rates, _) = draw_bearing(random);
         let alone = random.chance(0.3);
         let drawn = random.range(-10.0, 20.0);
         let snr = if alone { 60.0 } else { drawn };
-        let background = if alone { white(random) } else { machine(random, rates.shaft) };
-        let (record, rivals) = other.draw(random, rates.shaft);
+        let background = if alone { white(random) } else { machine(random, rates.shaft, &clock) };
+        let (record, rivals) = other.draw(random, rates.shaft, &clock);
         let signal = scaled_to(record, power(&background) * 10f64.powf(0.1 * snr));
         let record = sum(&background, &signal, 1.0);
-        Generated { record, rates, part: None, other: Some(other), snr, rivals }
+        Generated { record, rates, part: None, other: Some(other), snr, rivals, clock }
     }
 
     /// Whether one of a rival's first twelve harmonics lies in the search window of a bearing line.

@@ -2,7 +2,9 @@
 
 mod baseline;
 mod calibration;
+mod clock;
 mod faults;
+mod fit;
 mod generator;
 mod others;
 mod path;

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::path::{TransferPath, arrivals, coloured, scaled_to, sum, tones, white};
+use super::clock::Clock;
+use super::path::{TransferPath, arrivals, coloured, machine_tones, scaled_to, sum, tones, white};
 use super::random::Random;
 use super::{RATE, SECONDS};
 
@@ -41,28 +42,30 @@ impl Other {
         Other::Blades,
     ];
 
-    /// The record, and the rates \[Hz\] at which it repeats.
-    pub fn draw(self, random: &mut Random, shaft: f64) -> (Vec<f64>, Vec<f64>) {
+    /// The record, and the rates \[Hz\] at which it repeats; mains, sines and foreign machines know no `clock`.
+    pub fn draw(self, random: &mut Random, shaft: f64, clock: &Clock) -> (Vec<f64>, Vec<f64>) {
         match self {
             Other::White => (white(random), vec![]),
             Other::Coloured => (coloured(random), vec![]),
             Other::Sine => sines(random),
-            Other::GearMesh => gears(random, shaft),
-            Other::BrokenTooth => broken_tooth(random, shaft),
+            Other::GearMesh => gears(random, shaft, clock),
+            Other::BrokenTooth => broken_tooth(random, shaft, clock),
             Other::ForeignImpacts => {
                 let (rate, jitter) = (random.log_range(2.0, 300.0), draw_jitter(random));
-                (train(random, rate, jitter, |_| 1.0), vec![rate])
+                (train(random, rate, jitter, &Clock::STEADY, |_| 1.0), vec![rate])
             }
             Other::ModulatedImpacts => {
                 let (rate, jitter) = (random.log_range(10.0, 300.0), draw_jitter(random));
                 let by = rate / random.range(2.2, 12.0);
                 let (depth, phase) = (random.range(0.2, 0.95), random.phase());
-                let record = train(random, rate, jitter, |t| 1.0 + depth * (TAU * by * t + phase).cos());
+                let record = train(random, rate, jitter, &Clock::STEADY, |t| {
+                    1.0 + depth * (TAU * by * t + phase).cos()
+                });
                 (record, vec![rate, by])
             }
             Other::ShaftImpacts => {
                 let per_turn = random.integer(1, 3) as f64;
-                (train(random, per_turn * shaft, 0.001, |_| 1.0), vec![shaft])
+                (train(random, per_turn * shaft, 0.001, clock, |_| 1.0), vec![shaft])
             }
             Other::RandomImpacts => {
                 let mut time = 0.0;
@@ -72,7 +75,7 @@ impl Other {
                     impacts.push((time, random.normal()));
                     time -= (1.0 - random.unit()).ln() / rate;
                 }
-                (TransferPath::draw(random).impacts(&impacts), vec![])
+                (TransferPath::draw(random).impacts(&impacts, &Clock::STEADY), vec![])
             }
             Other::Mains => mains(random),
             Other::CyclicNoise => {
@@ -83,7 +86,9 @@ impl Other {
                 };
                 let (depth, sharpness) = (random.range(0.3, 1.0), random.range(0.5, 3.0));
                 (
-                    modulated_noise(random, |t| (1.0 + depth * (TAU * rate * t).cos()).powf(sharpness)),
+                    modulated_noise(random, clock, |t| {
+                        (1.0 + depth * (TAU * rate * t).cos()).powf(sharpness)
+                    }),
                     vec![rate],
                 )
             }
@@ -91,18 +96,18 @@ impl Other {
                 // Contact over part of each revolution.
                 let (part, phase) = (random.range(0.05, 0.3), random.unit());
                 let on = |t: f64| if (shaft * t + phase).fract() < part { 1.0 } else { 0.1 };
-                (modulated_noise(random, on), vec![shaft])
+                (modulated_noise(random, clock, on), vec![shaft])
             }
             Other::Blades => {
                 let blades = random.integer(3, 9) as f64 * shaft;
                 let depth = random.range(0.2, 0.9);
                 let by_shaft = random.range(0.0, 0.3);
-                let noise = modulated_noise(random, |t| {
+                let noise = modulated_noise(random, clock, |t| {
                     1.0 + depth * (TAU * blades * t).cos() + by_shaft * (TAU * shaft * t).cos()
                 });
                 let lines: Vec<_> =
                     (1..=4).map(|n| (f64::from(n) * blades, 0.5f64.powi(n), random.phase())).collect();
-                (sum(&scaled_to(noise, 1.0), &tones(&lines), 1.0), vec![shaft])
+                (sum(&scaled_to(noise, 1.0), &machine_tones(&lines, clock), 1.0), vec![shaft])
             }
         }
     }
@@ -113,19 +118,25 @@ fn draw_jitter(random: &mut Random) -> f64 {
     if random.chance(0.5) { 0.0 } else { 0.02 * random.unit() }
 }
 
-fn train(random: &mut Random, rate: f64, jitter: f64, strength: impl Fn(f64) -> f64) -> Vec<f64> {
+fn train(
+    random: &mut Random,
+    rate: f64,
+    jitter: f64,
+    clock: &Clock,
+    strength: impl Fn(f64) -> f64,
+) -> Vec<f64> {
     let path = TransferPath::draw(random);
     let spread = random.range(0.0, 0.2);
     let impacts: Vec<(f64, f64)> = arrivals(random, rate, jitter)
         .into_iter()
         .map(|time| (time, strength(time) * (1.0 + spread * random.normal())))
         .collect();
-    path.impacts(&impacts)
+    path.impacts(&impacts, clock)
 }
 
-fn modulated_noise(random: &mut Random, gain: impl Fn(f64) -> f64) -> Vec<f64> {
+fn modulated_noise(random: &mut Random, clock: &Clock, gain: impl Fn(f64) -> f64) -> Vec<f64> {
     let mut force = white(random);
-    force.iter_mut().enumerate().for_each(|(n, f)| *f *= gain(n as f64 / RATE));
+    force.iter_mut().enumerate().for_each(|(n, f)| *f *= gain(clock.machine(n as f64 / RATE)));
     if random.chance(0.5) { force } else { TransferPath::draw(random).force(&force) }
 }
 
@@ -142,7 +153,7 @@ fn sines(random: &mut Random) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// Mesh of a pair of gears, amplitude and phase modulated by both shafts.
-fn gears(random: &mut Random, shaft: f64) -> (Vec<f64>, Vec<f64>) {
+fn gears(random: &mut Random, shaft: f64, clock: &Clock) -> (Vec<f64>, Vec<f64>) {
     let (teeth, other_teeth) = (random.integer(17, 60) as f64, random.integer(17, 90) as f64);
     let other = shaft * teeth / other_teeth;
     let mut draw = |limit: f64| (random.range(0.0, limit), random.phase());
@@ -150,13 +161,13 @@ fn gears(random: &mut Random, shaft: f64) -> (Vec<f64>, Vec<f64>) {
     let phases: Vec<f64> = (0..3).map(|_| random.phase()).collect();
     let record = (0..super::SAMPLES)
         .map(|n| {
-            let t = n as f64 / RATE;
+            let t = clock.machine(n as f64 / RATE);
             let (own, pair) = (TAU * shaft * t, TAU * other * t);
             let amplitude = 1.0 + a1 * (own + p1).cos() + a2 * (pair + p2).cos();
             let phase = b1 * (own + q1).sin() + b2 * (pair + q2).sin();
             let harmonic = |k: usize| {
                 let order = (k + 1) as f64;
-                let inside = order * teeth * shaft < 0.45 * RATE;
+                let inside = order * teeth * shaft * (1.0 + 0.5 * clock.change.abs()) < 0.45 * RATE;
                 if inside {
                     0.6f64.powi(k as i32) * (order * (teeth * own + phase) + phases[k]).cos()
                 } else {
@@ -170,10 +181,10 @@ fn gears(random: &mut Random, shaft: f64) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// A gear pair with one impact per revolution of one of its shafts.
-fn broken_tooth(random: &mut Random, shaft: f64) -> (Vec<f64>, Vec<f64>) {
-    let (mesh, rates) = gears(random, shaft);
+fn broken_tooth(random: &mut Random, shaft: f64, clock: &Clock) -> (Vec<f64>, Vec<f64>) {
+    let (mesh, rates) = gears(random, shaft, clock);
     let rate = rates[random.integer(0, 1)];
-    let impacts = train(random, rate, 0.0, |_| 1.0);
+    let impacts = train(random, rate, 0.0, clock, |_| 1.0);
     let share = random.range(0.3, 2.0);
     (sum(&scaled_to(mesh, 1.0), &scaled_to(impacts, 1.0), share), rates)
 }
@@ -185,7 +196,7 @@ fn mains(random: &mut Random) -> (Vec<f64>, Vec<f64>) {
         .map(|n| (f64::from(n) * base, random.range(0.0, 1.0) / f64::from(n), random.phase()))
         .collect();
     let depth = random.range(0.0, 0.9);
-    let noise = modulated_noise(random, |t| 1.0 + depth * (TAU * 2.0 * base * t).cos());
+    let noise = modulated_noise(random, &Clock::STEADY, |t| 1.0 + depth * (TAU * 2.0 * base * t).cos());
     let share = random.range(0.1, 1.0);
     (sum(&tones(&lines), &scaled_to(noise, 1.0), share), vec![base])
 }

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use rotordyn_signal::Complex;
 
+use super::clock::Clock;
 use super::random::Random;
 use super::{RATE, SAMPLES, SECONDS};
 
@@ -31,9 +32,10 @@ impl TransferPath {
         TransferPath((0..modes).map(|k| mode(k, random)).collect())
     }
 
-    /// Response to impacts (time \[s\], strength); arrivals between samples are exact.
-    pub fn impacts(&self, impacts: &[(f64, f64)]) -> Vec<f64> {
+    /// Response to impacts (time on the machine's clock \[s\], strength); arrivals between samples are exact.
+    pub fn impacts(&self, impacts: &[(f64, f64)], clock: &Clock) -> Vec<f64> {
         let mut out = vec![0.0; SAMPLES];
+        let impacts: Vec<(f64, f64)> = impacts.iter().map(|(time, a)| (clock.real(*time), *a)).collect();
         for mode in &self.0 {
             let mut state = Complex::new(0.0, 0.0);
             let mut next = impacts.iter().filter(|(time, _)| (0.0..SECONDS).contains(time)).peekable();
@@ -88,10 +90,15 @@ pub fn coloured(random: &mut Random) -> Vec<f64> {
 
 /// Σ a_k cos(2π f_k t + φ_k).
 pub fn tones(lines: &[(f64, f64, f64)]) -> Vec<f64> {
+    machine_tones(lines, &Clock::STEADY)
+}
+
+/// Σ a_k cos(2π f_k τ + φ_k) with the machine's clock τ.
+pub fn machine_tones(lines: &[(f64, f64, f64)], clock: &Clock) -> Vec<f64> {
     let mut out = vec![0.0; SAMPLES];
     for (frequency, amplitude, phase) in lines.iter().filter(|(f, ..)| *f < 0.48 * RATE) {
         for (n, value) in out.iter_mut().enumerate() {
-            *value += amplitude * (TAU * frequency * n as f64 / RATE + phase).cos();
+            *value += amplitude * (TAU * frequency * clock.machine(n as f64 / RATE) + phase).cos();
         }
     }
     out

@@ -5,6 +5,7 @@ use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, diagnose};
 use rotordyn_signal::grading::{Explanation, Finding, GradedDiagnosis, RivalKind};
 
 use super::RATE;
+use super::clock::Clock;
 use super::path::{TransferPath, arrivals, scaled_to, sum, white};
 use super::random::Random;
 
@@ -17,7 +18,7 @@ fn record(seed: u64, snr: f64, rate: f64, jitter: f64, strength: impl Fn(f64) ->
     let random = &mut Random::of_record(seed, 0);
     let path = TransferPath::draw(random);
     let impacts: Vec<_> = arrivals(random, rate, jitter).into_iter().map(|t| (t, strength(t))).collect();
-    let impacts = scaled_to(path.impacts(&impacts), 10f64.powf(0.1 * snr));
+    let impacts = scaled_to(path.impacts(&impacts, &Clock::STEADY), 10f64.powf(0.1 * snr));
     sum(&white(random), &impacts, 1.0)
 }
 
