@@ -26,9 +26,13 @@ pub const APART: &str = "apart";
 /// With [`PLACE_VARIABLE`] as [`HERE`], the worker itself reads them: many times faster, and a crash of the HDF5 library
 /// ends it.
 pub fn reading_limits() -> Limits {
-    let here = std::env::var_os(PLACE_VARIABLE).is_some_and(|value| value == HERE);
-    let program = if here { None } else { std::env::current_exe().ok() };
+    let program = if is_here() { None } else { std::env::current_exe().ok() };
     Limits { hdf5_program: program, ..Limits::default() }
+}
+
+/// Whether this process reads HDF5 files itself.
+pub fn is_here() -> bool {
+    std::env::var_os(PLACE_VARIABLE).is_some_and(|value| value == HERE)
 }
 
 /// Reads the file for the process that started this one, if the arguments say so.
