@@ -53,17 +53,26 @@ pub fn limit_memory(bytes: u64) {
 #[cfg(not(unix))]
 pub fn limit_memory(_: u64) {}
 
-/// Ends this process after further processor time \[s\].
+/// Ends this process by the signal of its limit after further processor time \[s\].
+///
+/// Limits of the system are whole seconds: a thread looks at the clock.
 #[cfg(unix)]
-pub fn limit_cpu_seconds(more: u64) {
-    use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
-    let end = cpu_nanoseconds() / 1_000_000_000 + 1 + more;
-    let maximum = getrlimit(Resource::Cpu).maximum;
-    let _ = setrlimit(Resource::Cpu, Rlimit { current: Some(end), maximum });
+pub fn limit_cpu_seconds(more: f64) {
+    use rustix::process::{Signal, getpid, kill_process};
+    static WATCH: std::sync::Once = std::sync::Once::new();
+    start(more);
+    WATCH.call_once(|| {
+        std::thread::spawn(|| {
+            while cpu_nanoseconds() < DEADLINE.load(Ordering::Relaxed) {
+                std::thread::sleep(Duration::from_millis(20));
+            }
+            kill_process(getpid(), Signal::XCPU)
+        });
+    });
 }
 
 #[cfg(not(unix))]
-pub fn limit_cpu_seconds(_: u64) {}
+pub fn limit_cpu_seconds(_: f64) {}
 
 /// Sets all limits on this process and starts its watch.
 pub fn impose() {
