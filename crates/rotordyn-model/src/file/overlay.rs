@@ -6,7 +6,7 @@ use super::key::{NamedTables, Text, Texts, keys, named_tables, text, texts};
 use super::renamed;
 use super::tree::{Entry, Node, Table, Value};
 use rotordyn_units::names::folder_problem;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// Tables whose entries are named items: `bearing.B`, `housing.A`.
@@ -165,8 +165,6 @@ fn remove(root: &mut Table, list: &Entry, log: &Log) {
             Problem::new(Kind::OutOfRange, &beyond.span, format!("`remove` has {} paths", paths.len()));
         log.error(problem.expected(format!("at most {MAX_ITEMS}")));
     }
-    // What is removed from each table, by the path of the table.
-    let mut removed: BTreeMap<Vec<String>, HashSet<String>> = BTreeMap::new();
     for path in paths.iter().take(MAX_ITEMS) {
         let Value::Text(text) = &path.value else {
             log.error(Problem::new(Kind::WrongType, &path.span, "a path to remove must be a string"));
@@ -179,18 +177,14 @@ fn remove(root: &mut Table, list: &Entry, log: &Log) {
         }
         let parts: Vec<&str> = present.as_deref().unwrap_or(text).split('.').collect();
         for (depth, part) in parts.iter().enumerate() {
-            let owner: Vec<String> = parts[..depth].iter().map(|part| (*part).into()).collect();
-            let taken = removed.get(&owner);
-            let is_there =
-                |key: &str| table.get(key).is_some() && !taken.is_some_and(|keys| keys.contains(key));
-            if !is_there(part) {
+            if table.get(part).is_none() {
                 let problem =
                     Problem::new(Kind::BadPath, &path.span, format!("there is no `{text}` to remove"));
-                log.error(problem.suggest(log, part, table.keys().filter(|key| is_there(key))));
+                log.error(problem.suggest(log, part, table.keys()));
                 break;
             }
             if depth + 1 == parts.len() {
-                removed.entry(owner).or_default().insert((*part).into());
+                table.remove(part);
                 break;
             }
             match table.node_mut(part) {
@@ -200,19 +194,6 @@ fn remove(root: &mut Table, list: &Entry, log: &Log) {
                     break;
                 }
             }
-        }
-    }
-    // Of tables within tables the inner ones first: an outer one may take them with it.
-    for (owner, keys) in removed.iter().rev() {
-        let mut table = Some(&mut *root);
-        for part in owner {
-            table = table.and_then(|table| match table.node_mut(part) {
-                Some(Node { value: Value::Table(inner), .. }) => Some(inner),
-                _ => None,
-            });
-        }
-        if let Some(table) = table {
-            table.remove_all(keys);
         }
     }
 }

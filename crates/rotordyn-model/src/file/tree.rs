@@ -1,6 +1,6 @@
 //! The TOML document as a tree in file order, every key and value with its source span.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -105,12 +105,6 @@ impl Table {
         let place = self.places.remove(key)?;
         self.places.values_mut().filter(|later| **later > place).for_each(|later| *later -= 1);
         Some(self.entries.remove(place))
-    }
-
-    /// Removes entries; many at once take as long as one.
-    pub fn remove_all(&mut self, keys: &HashSet<String>) {
-        self.entries.retain(|entry| !keys.contains(&entry.key));
-        *self = Self::of(std::mem::take(&mut self.entries));
     }
 
     pub fn into_entries(self) -> Vec<Entry> {
