@@ -62,7 +62,9 @@ impl<'t> Runner<'t> {
     /// The result of the input begun.
     ///
     /// HDF5 files are read in the worker, as a process for each takes many times as long as reading it; an input that does
-    /// something wrong there is run once more with such processes, as the program has them, and that result counts.
+    /// something wrong there is run once more with such processes, as the program has them, and that result counts. It has
+    /// no features: as a seed such an input would have the changes of it hang or crash as well, and a run would spend its
+    /// time in starting workers.
     ///
     /// # Errors
     /// No input was begun, or a dead worker cannot be asked for its reason.
@@ -76,9 +78,12 @@ impl<'t> Runner<'t> {
         let mut worker = Worker::start(self.target, self.folder.path(), APART)?;
         worker.send(&self.input);
         self.worker = Some(worker);
-        let found = self.answer();
+        let mut found = self.answer()?;
         self.end_worker();
-        found
+        if let Execution::Sound(answer) = &mut found {
+            answer.features.clear();
+        }
+        Ok(found)
     }
 
     fn end_worker(&mut self) {

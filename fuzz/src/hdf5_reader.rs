@@ -11,8 +11,8 @@ use crate::limits;
 /// Memory of the HDF5 library besides the data, and of the program \[bytes\].
 const OWN_MEMORY: u64 = 256_000_000;
 
-/// Processor time for one question \[s\].
-const SECONDS: u64 = 2;
+/// Processor time for one question \[s\], as the program allows for files of this size.
+const SECONDS: f64 = 0.5;
 
 /// Environment variable that says where a worker reads HDF5 files.
 pub const PLACE_VARIABLE: &str = "ROTORDYN_FUZZ_HDF5";
@@ -26,9 +26,13 @@ pub const APART: &str = "apart";
 /// With [`PLACE_VARIABLE`] as [`HERE`], the worker itself reads them: many times faster, and a crash of the HDF5 library
 /// ends it.
 pub fn reading_limits() -> Limits {
-    let here = std::env::var_os(PLACE_VARIABLE).is_some_and(|value| value == HERE);
-    let program = if here { None } else { std::env::current_exe().ok() };
+    let program = if is_here() { None } else { std::env::current_exe().ok() };
     Limits { hdf5_program: program, ..Limits::default() }
+}
+
+/// Whether this process reads HDF5 files itself.
+pub fn is_here() -> bool {
+    std::env::var_os(PLACE_VARIABLE).is_some_and(|value| value == HERE)
 }
 
 /// Reads the file for the process that started this one, if the arguments say so.

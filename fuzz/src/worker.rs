@@ -10,7 +10,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::{Mutex, PoisonError};
 
 use crate::feature::{self, EdgeCounts, Feature};
-use crate::hdf5_reader::PLACE_VARIABLE;
+use crate::hdf5_reader::{self, PLACE_VARIABLE};
 use crate::limits;
 use crate::targets::Target;
 
@@ -55,13 +55,17 @@ pub fn serve(target: &Target, folder: &Path) -> io::Result<()> {
     let edges_file = std::env::var_os(feature::EDGES_VARIABLE).map(PathBuf::from);
     let mut edges = edges_file.and_then(|path| EdgeCounts::open(&path).ok().flatten());
     let here = folder.to_string_lossy();
+    let allowed = match target.hdf5 && hdf5_reader::is_here() {
+        true => limits::SECONDS_OF_FIRST_TRY,
+        false => limits::SECONDS,
+    };
     let mut from = BufReader::new(io::stdin().lock());
     let mut to = io::stdout().lock();
     while let Some(input) = read_block(&mut from)? {
         if let Some(edges) = &mut edges {
             edges.clear()?;
         }
-        let start = limits::start();
+        let start = limits::start(allowed);
         let outcome = catch_unwind(AssertUnwindSafe(|| (target.run)(&input, folder)));
         let seconds = limits::stop(start);
         let panics = std::mem::take(&mut *PANICS.lock().unwrap_or_else(PoisonError::into_inner));

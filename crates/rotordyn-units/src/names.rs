@@ -8,9 +8,10 @@ pub fn nearest<'n>(word: &str, known: impl IntoIterator<Item = &'n str>) -> Opti
     let plain = |s: &str| s.to_lowercase().replace(['-', ' '], "_");
     let word = plain(word);
     let score = |name: &str| strsim::jaro_winkler(&word, &plain(name));
-    let best = known.into_iter().max_by(|a, b| score(a).total_cmp(&score(b)).then(b.cmp(a)))?;
+    let scored = known.into_iter().map(|name| (score(name), name));
+    let (similar, best) = scored.max_by(|(a, x), (b, y)| a.total_cmp(b).then(y.cmp(x)))?;
     let close = strsim::damerau_levenshtein(&word, &plain(best)) <= word.chars().count() / 3;
-    (close || score(best) > 0.87).then_some(best)
+    (close || similar > 0.87).then_some(best)
 }
 
 /// Similarity of two names from 0 to 1 (Jaro-Winkler), case ignored.

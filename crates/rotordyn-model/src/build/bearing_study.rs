@@ -69,7 +69,7 @@ pub(super) fn read(r: &Reader, bearings: &[String]) -> BearingStudy {
     for (name, span) in r.texts(&STUDY.bearings).unwrap_or_default() {
         if !known().any(|other| other == name) {
             let problem = Problem::new(Kind::UnknownName, &span, format!("unknown ball bearing `{name}`"));
-            r.log.error(problem.suggest(name, known()));
+            r.log.error(problem.suggest(r.log, name, known()));
         }
         chosen.push(name.to_string());
     }

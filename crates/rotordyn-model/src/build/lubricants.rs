@@ -86,7 +86,7 @@ fn grade(r: &Reader) -> Option<Lubricant> {
     if !Lubricant::grades().any(|grade| grade == name) {
         let message = format!("unknown grade `{name}`");
         let problem = Problem::new(Kind::UnknownName, &r.span_of(&OIL.grade), message);
-        r.log.error(problem.suggest(name, Lubricant::grades()));
+        r.log.error(problem.suggest(r.log, name, Lubricant::grades()));
     }
     Lubricant::grade(name, temperature)
 }
@@ -102,7 +102,7 @@ pub(super) fn of_bearing(r: &Reader, lubricants: &[Lubricant], film: &Range<usiz
             if found.is_none() {
                 let message = format!("unknown lubricant `{name}`");
                 let problem = Problem::new(Kind::UnknownName, &r.span_of(key), message);
-                let problem = problem.suggest(name, lubricants.iter().map(|oil| oil.name.as_str()));
+                let problem = problem.suggest(r.log, name, lubricants.iter().map(|oil| oil.name.as_str()));
                 r.log.error(match lubricants {
                     [] => problem.hint(format!(
                         "add [lubricant.{name}] with viscosity and pressure_viscosity, or grade and temperature"

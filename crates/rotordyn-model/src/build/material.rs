@@ -21,7 +21,7 @@ pub(super) fn material(r: &Reader, key: &Key<Text>, materials: &[Material]) -> O
     if found.is_none() {
         let message = format!("unknown material `{name}`");
         let problem = Problem::new(Kind::UnknownName, &r.span_of(key), message);
-        let problem = problem.suggest(name, materials.iter().map(|m| m.name.as_str()));
+        let problem = problem.suggest(r.log, name, materials.iter().map(|m| m.name.as_str()));
         r.log.error(if materials.is_empty() {
             problem.hint(format!("add [material.{name}]"))
         } else {

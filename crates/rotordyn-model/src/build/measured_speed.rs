@@ -130,7 +130,7 @@ fn select_column<'f>(
                 &r.span_of(&MEASURED.column),
                 format!("the file has no column `{name}`"),
             );
-            r.log.error(problem.suggest(name, names()));
+            r.log.error(problem.suggest(r.log, name, names()));
         }
         return found;
     }

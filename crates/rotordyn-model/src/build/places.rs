@@ -7,6 +7,7 @@ use crate::file::reader::Reader;
 use rotordyn_core::element::Anchor;
 use rotordyn_units::LENGTH;
 use rotordyn_units::names::nearest;
+use std::collections::HashMap;
 use std::ops::Range;
 
 keys! {
@@ -54,27 +55,47 @@ impl Place {
 /// All places of a model.
 pub(super) struct Places {
     list: Vec<Place>,
+    /// Places in the list by full name, and by the name behind the kind.
+    by_name: HashMap<String, Vec<usize>>,
+    by_short_name: HashMap<String, Vec<usize>>,
     /// Elements between two places, with these: ("bearing.A", "station.A and housing.A").
-    connections: Vec<(String, String)>,
+    connections: HashMap<String, String>,
+}
+
+/// "A" of "station.A"; "ground" is its own.
+fn short(name: &str) -> &str {
+    name.split_once('.').map_or(name, |(_, short)| short)
 }
 
 impl Places {
     pub fn new(stations: &[Station]) -> Self {
-        let mut list = vec![Place { name: "ground".into(), node: None, position: [0.0; 3] }];
+        let mut places = Self {
+            list: Vec::new(),
+            by_name: HashMap::new(),
+            by_short_name: HashMap::new(),
+            connections: HashMap::new(),
+        };
+        places.push(Place { name: "ground".into(), node: None, position: [0.0; 3] });
         for s in stations {
-            let name = format!("station.{}", s.name);
-            list.push(Place { name, node: Some(s.node), position: [0.0, 0.0, s.z] });
+            places.add(format!("station.{}", s.name), s.node, [0.0, 0.0, s.z]);
         }
-        Self { list, connections: Vec::new() }
+        places
     }
 
     /// Remembers an element that is no place itself but acts between two, for the hint to who names it as a place.
     pub fn add_connection(&mut self, element: String, ends: String) {
-        self.connections.push((element, ends));
+        self.connections.insert(element, ends);
     }
 
     pub fn add(&mut self, name: String, node: usize, position: [f64; 3]) {
-        self.list.push(Place { name, node: Some(node), position });
+        self.push(Place { name, node: Some(node), position });
+    }
+
+    fn push(&mut self, place: Place) {
+        let at = self.list.len();
+        self.by_name.entry(place.name.clone()).or_default().push(at);
+        self.by_short_name.entry(short(&place.name).into()).or_default().push(at);
+        self.list.push(place);
     }
 
     /// Find a place by full name, or by unambiguous short name; `kinds` limits the search ("station",
@@ -83,31 +104,33 @@ impl Places {
         let allowed = |place: &&Place| {
             kinds.is_empty() || kinds.contains(&place.name.split('.').next().unwrap_or_default())
         };
-        let all: Vec<&Place> = self.list.iter().filter(allowed).collect();
-        let short =
-            |place: &Place| place.name.split_once('.').map_or(place.name.clone(), |p| p.1.to_string());
-        if let Some(exact) = all.iter().copied().find(|p| p.name == text) {
-            return Some(exact);
+        let named = |names: &HashMap<String, Vec<usize>>| -> Vec<&Place> {
+            let places = names.get(text).into_iter().flatten();
+            places.map(|at| &self.list[*at]).filter(allowed).collect()
+        };
+        if let Some(exact) = named(&self.by_name).first() {
+            return Some(*exact);
         }
-        let matches: Vec<&Place> = all.iter().copied().filter(|p| short(p) == text).collect();
+        let matches = named(&self.by_short_name);
         match matches[..] {
             [one] => Some(one),
             [] => {
                 let what = if kinds == ["station"] { "station" } else { "place" };
                 let problem = Problem::new(Kind::UnknownName, span, format!("unknown {what} `{text}`"));
-                if let Some((element, ends)) = self.connections.iter().find(|(element, _)| element == text) {
-                    r.log.error(problem.hint(format!("{element} acts between {ends}: write one of them")));
+                if let Some(ends) = self.connections.get(text) {
+                    r.log.error(problem.hint(format!("{text} acts between {ends}: write one of them")));
                     return None;
                 }
                 // suggest full or short names, as written by the user
-                let full = text.contains('.') || kinds.is_empty();
-                let names: Vec<String> =
-                    all.iter().map(|p| if full { p.name.clone() } else { short(p) }).collect();
-                let shorts: Vec<String> = all.iter().map(|p| short(p)).collect();
-                let near = if text.contains('.') { &names } else { &shorts };
-                let near_found = nearest(text, near.iter().map(String::as_str)).is_some();
-                let shown = if near_found { near } else { &names };
-                r.log.error(problem.suggest(text, shown.iter().map(String::as_str)));
+                let known: Vec<&str> =
+                    self.list.iter().filter(allowed).map(|place| place.name.as_str()).collect();
+                let shorts = || known.iter().map(|name| short(name));
+                let is_full = text.contains('.');
+                let is_near = !is_full && r.log.suggests() && nearest(text, shorts()).is_some();
+                r.log.error(match is_full || kinds.is_empty() && !is_near {
+                    true => problem.suggest(r.log, text, known.iter().copied()),
+                    false => problem.suggest(r.log, text, shorts()),
+                });
                 None
             }
             _ => {

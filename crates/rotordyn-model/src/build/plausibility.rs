@@ -10,6 +10,7 @@ use crate::{BearingSite, Model};
 use rotordyn_bearing::Bearing;
 use rotordyn_core::element::{Anchor, Disc, Material};
 use rotordyn_core::warning::Code;
+use std::collections::HashSet;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
@@ -50,7 +51,7 @@ pub(super) fn check(top: &Reader, model: &Model, materials: (&Key<NamedTables>, 
 }
 
 fn item_span(top: &Reader, collection: &Key<NamedTables>, name: &str) -> Range<usize> {
-    top.items(collection).into_iter().find(|(n, _)| *n == name).map_or(0..0, |(_, r)| r.span)
+    top.item(collection, name).map_or(0..0, |r| r.span)
 }
 
 /// E, ρ and √(E/ρ) of every material with mass.
@@ -273,14 +274,17 @@ fn balance_quality(top: &Reader, model: &Model) {
 pub(super) fn check_unused(top: &Reader, root: &Table, text: &str, collections: &[&Key<NamedTables>]) {
     let mut named = Vec::new();
     texts(root, &mut named);
-    let written = |name: &str| text.contains(&format!("\"{name}\"")) || text.contains(&format!("'{name}'"));
+    let named: HashSet<&str> = named.into_iter().collect();
+    // What stands between two quotation marks; that of a name with such marks in it cannot be told.
+    let quoted: HashSet<&str> = text.split('"').chain(text.split('\'')).collect();
+    let written = |name: &str| quoted.contains(name) || name.contains(['"', '\'']);
     for collection in collections {
         let items = top.items(collection);
         if items.len() < 2 {
             continue;
         }
         for (name, r) in items {
-            if !named.contains(&name) && !written(name) {
+            if !named.contains(name) && !written(name) {
                 let item = format!("{}.{name}", collection.about.name);
                 let problem = Problem::new(Kind::UnknownName, &r.span, format!("{item} is used by nothing"))
                     .hint("remove it, or name it where it is meant");

@@ -232,7 +232,7 @@ fn section_trigger(r: &Reader, model: &Model) -> SectionTrigger {
             &r.span_of(&STEADY.bearing),
             format!("there is no ball bearing `{name}`"),
         );
-        r.log.error(problem.suggest(name, with_balls().map(|(_, site, _)| site.name.as_str())));
+        r.log.error(problem.suggest(r.log, name, with_balls().map(|(_, site, _)| site.name.as_str())));
         return SectionTrigger::Shaft;
     }
     if clock == Clock::Shaft {
@@ -266,7 +266,7 @@ fn planes(r: &Reader, model: &Model) -> Vec<Plane> {
         let names: Vec<&str> = text.split(',').map(str::trim).collect();
         if let Some(unknown) = names.iter().find(|name| named(name).is_none()) {
             let problem = Problem::new(Kind::UnknownName, &span, format!("unknown probe `{unknown}`"));
-            r.log.error(problem.suggest(unknown, model.probes.iter().map(|p| p.name.as_str())));
+            r.log.error(problem.suggest(r.log, unknown, model.probes.iter().map(|p| p.name.as_str())));
             continue;
         }
         let probes: Vec<&Probe> = names.iter().filter_map(|name| named(name)).collect();

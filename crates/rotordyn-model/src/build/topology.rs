@@ -36,7 +36,7 @@ pub(super) fn check(top: &Reader, model: &Model) {
     };
     let supported = reach(&[0, 1]);
     for (_, body) in model.bodies.iter().enumerate().filter(|(k, _)| !supported[2 + k]) {
-        let of_kind = |key: &Key<NamedTables>| Some((key.about.name, item(top, key, &body.name)?.span));
+        let of_kind = |key: &Key<NamedTables>| Some((key.about.name, top.item(key, &body.name)?.span));
         let found = of_kind(&inertia::TOP.body).or_else(|| of_kind(&inertia::TOP.housing));
         let (kind, span) = found.unwrap_or((inertia::TOP.body.about.name, 0..0));
         let message =
@@ -88,7 +88,7 @@ fn check_tilt_support(top: &Reader, model: &Model) {
         return;
     }
     let tilts = |force: &[f64; 6]| force[3] != 0.0 || force[4] != 0.0;
-    for (load, r) in model.loads.iter().filter_map(|l| Some((l, item(top, &loading::TOP.load, &l.name)?))) {
+    for (load, r) in model.loads.iter().filter_map(|l| Some((l, top.item(&loading::TOP.load, &l.name)?))) {
         let on_shaft = load.at.node.is_some_and(|node| node < shaft);
         if on_shaft && load.history.is_empty() && tilts(&load.force) {
             let message = format!(
@@ -101,8 +101,4 @@ fn check_tilt_support(top: &Reader, model: &Model) {
             ));
         }
     }
-}
-
-fn item<'a>(top: &Reader<'a>, collection: &Key<NamedTables>, name: &str) -> Option<Reader<'a>> {
-    top.items(collection).into_iter().find(|(n, _)| *n == name).map(|(_, r)| r)
 }

@@ -3,7 +3,7 @@
 use rotordyn_core::warning::{Code, Warning};
 use rotordyn_units::names::nearest;
 use std::cell::{Cell, RefCell};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 
 /// A text that was read: the model file, or one `--set` argument.
@@ -140,8 +140,11 @@ impl Problem {
         self
     }
 
-    /// Suggest the nearest known name, or list the known names if none is close.
-    pub fn suggest<'n>(self, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
+    /// Suggest the nearest known name, or list the known names if none is close; not beside [`MAX_SUGGESTIONS`] errors.
+    pub fn suggest<'n>(self, log: &Log, word: &str, known: impl IntoIterator<Item = &'n str>) -> Self {
+        if !log.suggests() {
+            return self;
+        }
         let known: Vec<&str> = known.into_iter().collect();
         if let Some(near) = nearest(word, known.iter().copied()) {
             return self.hint(format!("did you mean `{near}`?"));
@@ -153,6 +156,10 @@ impl Problem {
         }
     }
 }
+
+/// Errors that are reported with names that may be meant: more than a person reads, and than the program prints. Every name
+/// of the file is compared with the unknown one.
+const MAX_SUGGESTIONS: usize = 100;
 
 /// All texts that were read, concatenated so that one offset identifies a location in any of them.
 #[derive(Clone, Debug, Default)]
@@ -208,6 +215,10 @@ enum Reported {
 #[derive(Default)]
 pub(crate) struct Log {
     errors: RefCell<Vec<Problem>>,
+    /// Places in `errors` of missing keys, by the span of their table and their message.
+    missing: RefCell<HashMap<(Range<usize>, String), Vec<usize>>>,
+    /// Places in `errors` of those that are not reported.
+    retracted: RefCell<HashSet<usize>>,
     warnings: RefCell<Vec<Problem>>,
     hints: RefCell<Vec<Problem>>,
     defaults: RefCell<Vec<DefaultValue>>,
@@ -221,7 +232,17 @@ pub(crate) struct Log {
 
 impl Log {
     pub fn error(&self, problem: Problem) {
-        self.errors.borrow_mut().push(problem);
+        let mut errors = self.errors.borrow_mut();
+        if problem.kind == Kind::MissingKey {
+            let key = (problem.span.clone(), problem.message.clone());
+            self.missing.borrow_mut().entry(key).or_default().push(errors.len());
+        }
+        errors.push(problem);
+    }
+
+    /// Whether names that may be meant are still looked for.
+    pub fn suggests(&self) -> bool {
+        self.error_count() <= MAX_SUGGESTIONS
     }
 
     fn is_first(&self, report: Reported) -> bool {
@@ -236,12 +257,10 @@ impl Log {
     }
 
     /// Remove the report of a missing key whose misspelt form was found, which is not among the first `before` errors.
-    pub fn retract_missing(&self, before: usize, span: &Range<usize>, message: &str) {
-        let is_it = |p: &Problem| p.kind == Kind::MissingKey && p.span == *span && p.message == message;
-        let mut errors = self.errors.borrow_mut();
-        let before = before.min(errors.len());
-        let later = errors.split_off(before);
-        errors.extend(later.into_iter().filter(|p| !is_it(p)));
+    pub fn retract_missing(&self, before: usize, span: &Range<usize>, message: String) {
+        let missing = self.missing.borrow();
+        let places = missing.get(&(span.clone(), message)).into_iter().flatten();
+        self.retracted.borrow_mut().extend(places.filter(|place| **place >= before));
     }
 
     /// Add a warning about an item of the file, such as `bearing.B`.
@@ -297,13 +316,15 @@ impl Log {
         variants.iter().rposition(|keys| keys.contains(&span.start)).map_or(0, |of| of + 1)
     }
 
-    /// Number of errors so far; a check that needs valid values compares it with the number before.
+    /// Number of errors so far, with those retracted; a check that needs valid values compares it with the number before.
     pub fn error_count(&self) -> usize {
         self.errors.borrow().len()
     }
 
     pub fn into_errors(self) -> Vec<Problem> {
-        self.errors.into_inner()
+        let retracted = self.retracted.into_inner();
+        let errors = self.errors.into_inner().into_iter().enumerate();
+        errors.filter(|(place, _)| !retracted.contains(place)).map(|(_, problem)| problem).collect()
     }
 
     /// Warnings and hints.

@@ -6,6 +6,7 @@
 //! continues and so reports all problems of a file at once, each with its exact span.
 
 pub(crate) mod diagnostic;
+pub(crate) mod items;
 pub mod key;
 pub(crate) mod overlay;
 pub(crate) mod quantities;

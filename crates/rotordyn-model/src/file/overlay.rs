@@ -1,6 +1,7 @@
 //! Overrides of the document before validation: variants and `--set` arguments.
 
 use super::diagnostic::{Kind, Log, Problem, Sources};
+use super::items::MAX_ITEMS;
 use super::key::{NamedTables, Text, Texts, keys, named_tables, text, texts};
 use super::renamed;
 use super::tree::{Entry, Node, Table, Value};
@@ -24,6 +25,9 @@ pub(crate) const COLLECTIONS: &[&str] = &[
     "load",
     "probe",
 ];
+
+/// Most variants of a file: `check` reads the file once for each.
+const MAX_VARIANTS: usize = 1000;
 
 keys! {
     /// Tables of this file.
@@ -71,7 +75,7 @@ pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
             let problem = Problem::new(Kind::UnknownName, &asked_at, format!("unknown variant `{name}`"));
             log.error(match variants.entries().len() {
                 0 => problem.hint("the file has no variants"),
-                _ => problem.suggest(&name, variants.keys()),
+                _ => problem.suggest(log, &name, variants.keys()),
             });
             return;
         };
@@ -121,6 +125,11 @@ pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
 
 /// Refuses names that would lead out of the folder of results, or to that of another variant.
 fn check_names(variants: &Table, log: &Log) {
+    if let Some(beyond) = variants.entries().get(MAX_VARIANTS) {
+        let message = format!("the file has {} variants", variants.entries().len());
+        let problem = Problem::new(Kind::OutOfRange, &beyond.key_span, message);
+        log.error(problem.expected(format!("at most {MAX_VARIANTS}")));
+    }
     let mut in_lower_case = HashMap::new();
     for Entry { key, key_span, .. } in variants.entries() {
         let refuse = |reason: String| {
@@ -151,7 +160,12 @@ fn remove(root: &mut Table, list: &Entry, log: &Log) {
         );
         return;
     };
-    for path in paths {
+    if let Some(beyond) = paths.get(MAX_ITEMS) {
+        let problem =
+            Problem::new(Kind::OutOfRange, &beyond.span, format!("`remove` has {} paths", paths.len()));
+        log.error(problem.expected(format!("at most {MAX_ITEMS}")));
+    }
+    for path in paths.iter().take(MAX_ITEMS) {
         let Value::Text(text) = &path.value else {
             log.error(Problem::new(Kind::WrongType, &path.span, "a path to remove must be a string"));
             continue;
@@ -166,7 +180,7 @@ fn remove(root: &mut Table, list: &Entry, log: &Log) {
             if table.get(part).is_none() {
                 let problem =
                     Problem::new(Kind::BadPath, &path.span, format!("there is no `{text}` to remove"));
-                log.error(problem.suggest(part, table.keys()));
+                log.error(problem.suggest(log, part, table.keys()));
                 break;
             }
             if depth + 1 == parts.len() {
@@ -248,7 +262,7 @@ pub(crate) fn apply_set(root: &mut Table, path: &str, value: &str, sources: &mut
         }
     }
     renamed::translate_node(&mut node, &mut names.into_iter().map(String::from).collect(), log);
-    if let Err(problem) = set_in_table(root, path, &parts, 0, node) {
+    if let Err(problem) = set_in_table(root, &Setting { path, parts: &parts, log }, 0, node) {
         log.error(problem);
     }
 }
@@ -259,17 +273,19 @@ struct Part<'p> {
     span: Range<usize>,
 }
 
+/// A setting under way.
+struct Setting<'s> {
+    path: &'s str,
+    parts: &'s [Part<'s>],
+    log: &'s Log,
+}
+
 fn bad_path(part: &Part, message: String) -> Problem {
     Problem::new(Kind::BadPath, &part.span, message)
 }
 
-fn set_in_table(
-    table: &mut Table,
-    path: &str,
-    parts: &[Part],
-    depth: usize,
-    node: Node,
-) -> Result<(), Problem> {
+fn set_in_table(table: &mut Table, setting: &Setting, depth: usize, node: Node) -> Result<(), Problem> {
+    let Setting { path, parts, log } = setting;
     let part = &parts[depth];
     if part.name.is_empty() {
         return Err(
@@ -282,7 +298,8 @@ fn set_in_table(
         let item = depth == 1 && !last && COLLECTIONS.contains(&parts[0].name);
         if depth == 0 && !last && COLLECTIONS.contains(&part.name) || item {
             let what = parts[..=depth].iter().map(|p| p.name).collect::<Vec<_>>().join(".");
-            return Err(bad_path(part, format!("the model has no `{what}`")).suggest(part.name, table.keys()));
+            let problem = bad_path(part, format!("the model has no `{what}`"));
+            return Err(problem.suggest(log, part.name, table.keys()));
         }
         let empty = Node { span: part.span.clone(), value: Value::Table(Table::default()) };
         table.set(Entry {
@@ -298,13 +315,14 @@ fn set_in_table(
         return Ok(());
     }
     let Some(inner) = table.node_mut(part.name) else { return Ok(()) };
-    set_in_node(inner, path, parts, depth + 1, node)
+    set_in_node(inner, setting, depth + 1, node)
 }
 
-fn set_in_node(into: &mut Node, path: &str, parts: &[Part], depth: usize, node: Node) -> Result<(), Problem> {
+fn set_in_node(into: &mut Node, setting: &Setting, depth: usize, node: Node) -> Result<(), Problem> {
+    let Setting { path, parts, .. } = setting;
     let part = &parts[depth];
     match &mut into.value {
-        Value::Table(table) => set_in_table(table, path, parts, depth, node),
+        Value::Table(table) => set_in_table(table, setting, depth, node),
         // a number selects an item of a list: shaft.section.0.length
         Value::List(items) => {
             let count = items.len();
@@ -317,7 +335,7 @@ fn set_in_node(into: &mut Node, path: &str, parts: &[Part], depth: usize, node: 
                 *item = node;
                 return Ok(());
             }
-            set_in_node(item, path, parts, depth + 1, node)
+            set_in_node(item, setting, depth + 1, node)
         }
         _ => {
             let owner = &parts[depth - 1];

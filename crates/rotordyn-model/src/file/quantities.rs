@@ -192,10 +192,11 @@ impl<'a> Reader<'a> {
                 problem(Kind::BadQuantity, format!("{name}: a unit between the numbers"))
                     .hint("write the unit once, behind the last number, such as \"100, 0 N\"")
             }
-            UnitError::UnknownUnit(unit) => {
-                problem(Kind::BadQuantity, format!("{name}: unknown unit `{unit}`"))
-                    .suggest(unit, units::unit_names())
-            }
+            UnitError::UnknownUnit(unit) => problem(
+                Kind::BadQuantity,
+                format!("{name}: unknown unit `{unit}`"),
+            )
+            .suggest(self.log, unit, units::unit_names()),
             UnitError::ScaleOfTemperature(_) => problem(Kind::WrongDimension, format!("{name}: {error}"))
                 .hint("write K: a temperature difference has the same value in K and degC"),
             UnitError::NotFinite(_) => problem(Kind::OutOfRange, format!("{name} is not a finite number")),

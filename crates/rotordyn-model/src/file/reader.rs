@@ -5,12 +5,9 @@
 //! Every requested key is recorded as known, so [`Reader::finish`] can report unknown keys with a suggestion.
 
 use super::diagnostic::{Kind, Log, Problem};
-use super::key::{
-    Absent, Count, Declared, Flag, Key, NamedTables, SubTable, Table as Declaration, TableList, Text, Texts,
-    Words,
-};
+use super::key::{Absent, Count, Declared, Flag, Key, SubTable, Table as Declaration, Text, Texts, Words};
 use super::tree::{Entry, Node, Table, Value};
-use rotordyn_units::names::{item_problem, nearest};
+use rotordyn_units::names::nearest;
 use std::cell::RefCell;
 use std::collections::HashSet;
 use std::ops::Range;
@@ -18,7 +15,7 @@ use std::sync::LazyLock;
 
 /// One table of the file.
 pub(crate) struct Reader<'a> {
-    table: &'a Table,
+    pub(super) table: &'a Table,
     /// Keys that may be read.
     declared: &'static Declaration,
     /// Span of the table's key.
@@ -26,7 +23,7 @@ pub(crate) struct Reader<'a> {
     /// Path of the table: "bearing.B".
     pub path: String,
     /// Path without names of items, of the declaration: "bearing".
-    declared_path: String,
+    pub(super) declared_path: String,
     pub log: &'a Log,
     errors_before: usize,
     requested_keys: RefCell<Requested>,
@@ -72,7 +69,7 @@ impl<'a> Reader<'a> {
         Self::new(table, declared, [String::new(), String::new()], 0..0, log)
     }
 
-    fn new(
+    pub(super) fn new(
         table: &'a Table,
         declared: &'static Declaration,
         [path, declared_path]: [String; 2],
@@ -149,7 +146,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Path of a key in the file and in the declaration.
-    fn paths(&self, key: &dyn Declared) -> [String; 2] {
+    pub(super) fn paths(&self, key: &dyn Declared) -> [String; 2] {
         let dot = if self.declared_path.is_empty() { "" } else { "." };
         [self.name(key), format!("{}{dot}{}", self.declared_path, key.name())]
     }
@@ -390,56 +387,6 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The named tables under a key, `[disc.a]`, `[disc.b]`, in file order.
-    pub fn items(&self, key: &Key<NamedTables>) -> Vec<(&'a str, Reader<'a>)> {
-        let declared = key.value.0;
-        let Some(all) = self.table_of(key, declared) else { return Vec::new() };
-        let mut items = Vec::new();
-        for entry in all.table.entries() {
-            let path = all.entry_name(&entry.key);
-            self.check_item_name(key.about.name, entry);
-            match &entry.node.value {
-                Value::Table(table) => {
-                    let paths = [path, all.declared_path.clone()];
-                    let reader = Reader::new(table, declared, paths, entry.key_span.clone(), self.log);
-                    items.push((entry.key.as_str(), reader));
-                }
-                _ => all.wrong_type(&entry.key, &entry.node, &format!("a table [{path}]")),
-            }
-        }
-        items
-    }
-
-    /// Refuses the name of an item under a key, which becomes that of a group and part of names of files.
-    pub(super) fn check_item_name(&self, of: &str, item: &Entry) {
-        if let Some(reason) = item_problem(&item.key) {
-            let message = format!("{:?} cannot be the name of a {of}: {reason}", item.key);
-            let problem = Problem::new(Kind::OutOfRange, &item.key_span, message);
-            self.log.error_once(problem.hint("names become groups of the results file and names of files"));
-        }
-    }
-
-    /// The tables of a list, `[[shaft.section]]`.
-    pub fn tables(&self, key: &Key<TableList>) -> Vec<Reader<'a>> {
-        let Some(entry) = self.entry(key) else { return Vec::new() };
-        let items = match &entry.node.value {
-            Value::List(items) => items.as_slice(),
-            _ => std::slice::from_ref(&entry.node),
-        };
-        let mut readers = Vec::new();
-        for (k, item) in items.iter().enumerate() {
-            match &item.value {
-                Value::Table(table) => {
-                    let [path, declared_path] = self.paths(key);
-                    let paths = [format!("{path}[{k}]"), declared_path];
-                    readers.push(Reader::new(table, key.value.0, paths, item.span.clone(), self.log));
-                }
-                _ => self.wrong_type(key.name(), item, &format!("tables [[{}]]", self.name(key))),
-            }
-        }
-        readers
-    }
-
     /// All entries of this table, marked as known.
     pub fn entries(&self) -> &'a [Entry] {
         for entry in self.table.entries() {
@@ -466,7 +413,7 @@ impl<'a> Reader<'a> {
         let mut unknown = self.table.entries().iter().filter(|e| !requested.known.contains(&e.key));
         for entry in unknown.by_ref().take(MAX_UNKNOWN) {
             if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
-                self.log.retract_missing(self.errors_before, &self.span, &self.missing_message(meant));
+                self.log.retract_missing(self.errors_before, &self.span, self.missing_message(meant));
             }
             let message = format!("unknown key {}", self.entry_name(&entry.key));
             let problem = Problem::new(Kind::UnknownKey, &entry.key_span, message);
@@ -480,7 +427,7 @@ impl<'a> Reader<'a> {
                 Value::Table(_) | Value::List(_) if self.path.is_empty() => {
                     problem.suggest_all(&entry.key, &self.declared_names())
                 }
-                _ => problem.suggest(&entry.key, known.iter().copied()),
+                _ => problem.suggest(self.log, &entry.key, known.iter().copied()),
             };
             self.log.error(problem.after_list(&all_keys));
         }
