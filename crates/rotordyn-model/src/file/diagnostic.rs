@@ -211,12 +211,15 @@ enum Reported {
     Default(String),
 }
 
+/// Span of a table, and the message of a key that it lacks.
+type PlaceAndMessage = (Range<usize>, String);
+
 /// Problems found so far; reading continues after each.
 #[derive(Default)]
 pub(crate) struct Log {
     errors: RefCell<Vec<Problem>>,
     /// Places in `errors` of missing keys, by the span of their table and their message.
-    missing: RefCell<HashMap<(Range<usize>, String), Vec<usize>>>,
+    missing: RefCell<HashMap<PlaceAndMessage, Vec<usize>>>,
     /// Places in `errors` of those that are not reported.
     retracted: RefCell<HashSet<usize>>,
     warnings: RefCell<Vec<Problem>>,
