@@ -10,7 +10,9 @@ mod steady;
 mod update;
 
 use common::assignment;
-pub use common::{CheckpointArgs, Interval, ModelArgs, Output, OutputFiles, StoredArgs, StudyArgs};
+pub use common::{
+    CheckpointArgs, Interval, ModelArgs, Output, OutputFiles, ReportArgs, StoredArgs, StudyArgs,
+};
 use keys::{help as key_help, help_with as key_help_with};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -267,6 +269,17 @@ Examples:
         #[command(flatten)]
         checkpoints: CheckpointArgs,
     },
+
+    /// One page of all results: report.html, for any browser, without network
+    ///
+    /// Warnings, a drawing of the machine and a summary first; the model as it was understood; Campbell diagram, FRFs,
+    /// unbalance response, spectra and order cuts to look into; mode shapes in motion; every value of results.h5 in
+    /// tables. `run` writes it as well, unless with --no-figures. Figures of the same folder are included as they are.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn report out/overhung_rig
+  rotordyn report out/overhung_rig/results.h5 -o rig.html")]
+    Report(ReportArgs),
 
     /// Spectrograms over rpm of a stored run-up: waterfall and Campbell map from the signal
     ///
