@@ -2,6 +2,7 @@
 // Mode shapes moving on the machine's own geometry.
 
 const PART_COLOURS = [0xb0bac6, 0x8f9db3, 0xe3dcc4, 0x8d97a5, 0xd8a13c];
+const BODY = 2;
 /** Largest displacement in the picture over the machine's length; largest rotation [rad]. */
 const SHOWN_DISPLACEMENT = 0.08;
 const SHOWN_ROTATION = 0.35;
@@ -59,6 +60,16 @@ function shapeViewer(results, machine) {
   return { node, showBranch, moved: () => scene?.moved() };
 }
 
+/** Corners of the triangles of a part, and of all others. */
+function trianglesOf(machine, part) {
+  const lists = [[], []];
+  for (let k = 0; k < machine.triangles.length; k += 3) {
+    const corners = machine.triangles.slice(k, k + 3);
+    lists[machine.parts[corners[0]] === part ? 0 : 1].push(...corners);
+  }
+  return lists;
+}
+
 /** Scene of the machine: set(shape) shows a shape, complex displacement and rotation of every node. */
 function machineScene(canvas, machine) {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
@@ -74,24 +85,31 @@ function machineScene(canvas, machine) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", position);
   geometry.setAttribute("color", new THREE.BufferAttribute(sectorColours(machine), 3));
-  geometry.setIndex(Array.from(machine.triangles));
-  geometry.computeVertexNormals();
-  const material = new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide, flatShading: true });
-  scene.add(new THREE.Mesh(geometry, material));
+  // Bodies are translucent, so that the bearings in them are seen.
+  const solid = geometry;
+  const bodies = geometry.clone();
+  bodies.setAttribute("position", position);
+  const [inBodies, others] = trianglesOf(machine, BODY);
+  solid.setIndex(others);
+  bodies.setIndex(inBodies);
+  const look = { vertexColors: true, side: THREE.DoubleSide, flatShading: true };
+  scene.add(new THREE.Mesh(solid, new THREE.MeshLambertMaterial(look)));
+  scene.add(new THREE.Mesh(bodies, new THREE.MeshLambertMaterial({ ...look, transparent: true, opacity: 0.35, depthWrite: false })));
 
   const box = extent(rest);
   const length = Math.max(...[0, 1, 2].map((i) => box.high[i] - box.low[i]));
   const middle = new THREE.Vector3(...[0, 1, 2].map((i) => 0.5 * (box.low[i] + box.high[i])));
   camera.near = length / 100;
   camera.far = length * 30;
-  camera.position.copy(middle).add(new THREE.Vector3(-1.45, 0.62, -0.55).multiplyScalar(length));
+  camera.position.copy(middle).add(new THREE.Vector3(-1.2, 0.5, -0.45).multiplyScalar(length));
   const turn = new THREE.OrbitControls(camera, canvas);
   turn.target.copy(middle);
   turn.update();
   keyboard(canvas, camera, turn);
 
   const orbits = machine.orbit_nodes.map(() => {
-    const line = new THREE.LineLoop(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
+    const line = new THREE.LineLoop(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ depthTest: false }));
+    line.renderOrder = 1;
     scene.add(line);
     return line;
   });

@@ -31,7 +31,7 @@ const SCRIPTS: [&str; 10] = [
 ];
 
 /// What a page is made of.
-#[derive(Debug)]
+#[derive(Clone)]
 pub struct Report<'a> {
     /// The results file.
     pub reader: &'a dyn Reader,
@@ -71,7 +71,7 @@ pub fn write(path: &Path, report: &Report) -> Result<(), ReportError> {
 /// # Errors
 /// The results cannot be read.
 pub fn html(report: &Report) -> Result<String, ReportError> {
-    let Report { reader, machine, given, defaults, figures, .. } = *report;
+    let Report { reader, machine, given, defaults, figures, ref notes } = *report;
     let text = |name: &str| -> Result<String, Error> {
         Ok(match reader.attribute("/meta", name)? {
             Some(Attribute::Text(text)) => text,
@@ -80,7 +80,7 @@ pub fn html(report: &Report) -> Result<String, ReportError> {
     };
     let mut arrays = Arrays::default();
     let tree = stored::read(reader, &mut arrays)?;
-    let mut notes = report.notes.clone();
+    let mut notes = notes.clone();
     if !tree.left_out.is_empty() {
         notes.push(format!("Too large for this page, see results.h5: {}", tree.left_out.join(", ")));
     }

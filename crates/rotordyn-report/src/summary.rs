@@ -83,11 +83,12 @@ fn critical_speeds(reader: &dyn Reader, operating: f64) -> Result<Vec<Line>, Err
         let detail = top.map_or(String::new(), |top| format!("up to {top:.0} rpm"));
         return Ok(vec![line("Critical speeds (1x)", "none".into(), detail)]);
     }
-    let words: Vec<String> =
-        synchronous.iter().take(LISTED).map(|(rpm, label)| format!("{rpm:.0} rpm ({label})")).collect();
+    let speeds: Vec<String> = synchronous.iter().take(LISTED).map(|(rpm, _)| format!("{rpm:.0}")).collect();
+    let modes: Vec<&str> = synchronous.iter().take(LISTED).map(|(_, label)| *label).collect();
     let more = synchronous.len().saturating_sub(LISTED);
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
-    let mut out = vec![line("Critical speeds (1x)", format!("{}{more}", words.join(", ")), String::new())];
+    let value = format!("{} rpm", speeds.join(", "));
+    let mut out = vec![line("Critical speeds (1x)", value, format!("{}{more}", modes.join(", ")))];
     let nearest = synchronous.iter().min_by(|a, b| (a.0 - operating).abs().total_cmp(&(b.0 - operating).abs()));
     if let Some((rpm, label)) = nearest.filter(|_| operating > 0.0) {
         let margin = 100.0 * (rpm - operating).abs() / operating;
