@@ -408,10 +408,14 @@ Examples:
   rotordyn help bearing
   rotordyn help bearing.preload
   rotordyn help study.run_up.step
+  rotordyn help --schema > rotordyn.schema.json
   rotordyn help run-up")]
     Help {
         /// Path of a table or key, such as bearing.preload, or a command
         path: Option<String>,
+        /// Print the JSON Schema of the model file, for editors that complete and explain its keys
+        #[arg(long, conflicts_with = "path")]
+        schema: bool,
     },
 
     /// List or look up bearings of the built-in catalogue

@@ -204,7 +204,10 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Catalogue { designation } => {
             catalogue::run(designation.as_deref(), terminal).map(Outcome::from)
         }
-        Command::Help { path } => help::run(path.as_deref(), terminal).map(Outcome::from),
+        Command::Help { path, schema } => match schema {
+            true => Ok(help::schema(terminal).into()),
+            false => help::run(path.as_deref(), terminal).map(Outcome::from),
+        },
         Command::Signal(args) => signal::run(args, terminal),
         Command::Report(args) => report_page::run(args, terminal).map(Outcome::from),
         Command::Export(args) => export::run(args, terminal).map(Outcome::from),

@@ -7,6 +7,7 @@ pub mod file;
 pub mod keys;
 pub mod load;
 pub mod parameter_paths;
+pub mod schema;
 
 pub use build::catalogue;
 pub use file::renamed::renamed_path;
