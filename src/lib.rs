@@ -120,6 +120,7 @@
 //! | [`error`] | the error that wraps those of all layers: input, physics, environment |
 //! | [`io`] | file formats: HDF5, universal files, MATLAB, NumPy, CSV, WAV, JSON, VTK, glTF |
 //! | [`plot`], [`figures`] | SVG and PNG charts; the figures of every study |
+//! | [`report_page`] | the results of a run as one page |
 //!
 //! Imports go down this table only.
 
@@ -133,6 +134,8 @@ pub use rotordyn_linalg as linalg;
 pub use rotordyn_model as model;
 #[cfg(feature = "plot")]
 pub use rotordyn_plot::{self as plot, figures};
+#[cfg(feature = "plot")]
+pub use rotordyn_report as report_page;
 pub use rotordyn_signal as signal;
 pub use rotordyn_units::{self as units, names};
 pub use rotordyn_update as update;

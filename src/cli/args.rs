@@ -10,7 +10,9 @@ mod steady;
 mod update;
 
 use common::assignment;
-pub use common::{CheckpointArgs, Interval, ModelArgs, Output, OutputFiles, StoredArgs, StudyArgs};
+pub use common::{
+    CheckpointArgs, Interval, ModelArgs, Output, OutputFiles, ReportArgs, StoredArgs, StudyArgs,
+};
 use keys::{help as key_help, help_with as key_help_with};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -269,6 +271,17 @@ Examples:
         checkpoints: CheckpointArgs,
     },
 
+    /// One page of all results: report.html, for any browser, without network
+    ///
+    /// Warnings, a drawing of the machine and a summary first; the model as it was understood; Campbell diagram, FRFs,
+    /// unbalance response, spectra and order cuts to look into; mode shapes in motion; every value of results.h5 in
+    /// tables. `run` writes it as well, unless with --no-figures. Figures of the same folder are included as they are.
+    #[command(after_long_help = "\
+Examples:
+  rotordyn report out/overhung_rig
+  rotordyn report out/overhung_rig/results.h5 -o rig.html")]
+    Report(ReportArgs),
+
     /// Spectrograms over rpm of a stored run-up: waterfall and Campbell map from the signal
     ///
     /// Settings come from the model text stored in the file; flags override them. Results are added to the
@@ -396,10 +409,14 @@ Examples:
   rotordyn help bearing
   rotordyn help bearing.preload
   rotordyn help study.run_up.step
+  rotordyn help --schema > rotordyn.schema.json
   rotordyn help run-up")]
     Help {
         /// Path of a table or key, such as bearing.preload, or a command
         path: Option<String>,
+        /// Print the JSON Schema of the model file, for editors that complete and explain its keys
+        #[arg(long, conflicts_with = "path")]
+        schema: bool,
     },
 
     /// List or look up bearings of the built-in catalogue

@@ -59,6 +59,13 @@ pub fn run(path: Option<&str>, terminal: &Terminal) -> Result<Value, Failure> {
     }))
 }
 
+/// The JSON Schema of the model file.
+pub fn schema(terminal: &Terminal) -> Value {
+    let schema = rotordyn::model::schema::json_schema();
+    terminal.print(&format!("{schema:#}"));
+    json!({ "command": "help", "schema_of_model_file": schema })
+}
+
 /// The code of a warning that a word is part of or resembles.
 fn nearest_code(word: &str) -> Option<Code> {
     let word = word.to_lowercase().replace(['_', ' '], "-");

@@ -10,6 +10,7 @@ use rotordyn::io::results_file;
 use super::args::OutputFiles;
 use super::csv_files::write_csv;
 use super::failure::Failure;
+use super::report_page;
 use super::studies::Job;
 
 impl Job<'_> {
@@ -39,6 +40,8 @@ impl Job<'_> {
         let tables = if written.csv { document_tables::tables(&sections) } else { Vec::new() };
         let mut listed = figures::file_names(&drawn);
         listed.extend(document_tables::csv_names(&tables).iter().map(|name| format!("csv/{name}")));
+        let page = written.page.then(|| self.folder.join(report_page::FILE));
+        listed.extend(page.iter().map(|_| report_page::FILE.to_string()));
         let state = match self.failures.first() {
             None => COMPLETE.to_string(),
             Some((study, why)) => format!("stopped: {study}: {}", why.message()),
@@ -53,6 +56,7 @@ impl Job<'_> {
             Failure::from(error).with_consequence(&lost)
         })?;
         self.unsaved.clear();
+        let results = file.clone();
         self.files.push(file);
         self.output.earlier.move_aside(&self.folder, &listed, self.terminal)?;
         if written.csv {
@@ -63,6 +67,12 @@ impl Job<'_> {
         self.files.extend(figures::write_all(&drawn, place)?);
         spinner.finish_and_clear();
         self.seconds.push(("files and figures", start.elapsed().as_secs_f64()));
+        if let Some(page) = page {
+            let start = Instant::now();
+            report_page::write(&results, &page, Some(&self.machine), &self.values, Vec::new())?;
+            self.files.push(page);
+            self.seconds.push(("report", start.elapsed().as_secs_f64()));
+        }
         Ok(())
     }
 }

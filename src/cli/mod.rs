@@ -37,6 +37,7 @@ mod outcome;
 mod previous_files;
 mod printed;
 mod renamed;
+mod report_page;
 mod resumed_run;
 mod run_identity;
 mod run_up;
@@ -67,7 +68,7 @@ use rotordyn::model::{Diagnostic, Model};
 use rotordyn::study::Machine;
 use serde_json::json;
 
-use args::{CheckpointArgs, Cli, Command, StudyArgs};
+use args::{CheckpointArgs, Cli, Command, OutputFiles, StudyArgs};
 use checkpoint::CheckpointWriter;
 use failure::Failure;
 use folder_lock::FolderLock;
@@ -204,9 +205,13 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Catalogue { designation } => {
             catalogue::run(designation.as_deref(), terminal).map(Outcome::from)
         }
-        Command::Help { path } => help::run(path.as_deref(), terminal).map(Outcome::from),
+        Command::Help { path, schema } => match schema {
+            true => Ok(help::schema(terminal).into()),
+            false => help::run(path.as_deref(), terminal).map(Outcome::from),
+        },
         Command::Signal(args) => signal::run(args, terminal),
         Command::Trend(args) => trend::run(args, terminal),
+        Command::Report(args) => report_page::run(args, terminal).map(Outcome::from),
         Command::Export(args) => export::run(args, terminal).map(Outcome::from),
     }
 }
@@ -264,11 +269,14 @@ fn studies_of(
     let mut job = Job::new(terminal, machine, folder, output);
     job.parameter_models = family;
     job.results.warnings = loaded.warnings.iter().filter_map(Diagnostic::to_warning).collect();
+    job.values = (&loaded).into();
     if let Some((writer, resumed)) = checkpoints {
         job.resume(writer, resumed);
     }
     job.perform(&wanted);
-    let outcome = finish(job, &wanted, args.into(), study.map_or("run", Study::name))?;
+    // `run` leaves a page of all its results.
+    let written = OutputFiles { page: study.is_none() && !args.no_figures, ..args.into() };
+    let outcome = finish(job, &wanted, written, study.map_or("run", Study::name))?;
     print_model_warnings(terminal, &loaded);
     Ok(outcome)
 }

@@ -157,7 +157,7 @@ pub fn compare(
     check_record_length(&found.run, &job.machine.model)?;
     job.perform(&[Study::RunUp]);
     // Partial results are written even if the run failed.
-    job.write(OutputFiles { figures: false, csv: false })?;
+    job.write(OutputFiles { figures: false, csv: false, page: false })?;
     if let Some((_, failure)) = job.failures.pop() {
         if !matches!(failure, Failure::Interrupted) {
             terminal.warn_of(Code::MeasuredData, format!(

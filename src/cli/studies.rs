@@ -13,6 +13,7 @@ use rotordyn::warning::Warning;
 
 use super::checkpoint::{CheckpointWriter, Running};
 use super::failure::Failure;
+use super::report_page::ModelValues;
 use super::store::Output;
 use super::system::cpu_seconds;
 use super::terminal::Terminal;
@@ -129,6 +130,8 @@ pub struct Job<'a> {
     /// Where the level maps of spectrograms and order tracking are kept.
     pub spill: Spill,
     pub results: Results,
+    /// Values of the model, for the page of the run.
+    pub values: ModelValues,
     /// Elapsed (wall-clock) time of every study \[s\].
     pub seconds: Vec<(&'static str, f64)>,
     /// Processor time of every study, all threads together \[s\].
@@ -159,6 +162,7 @@ impl<'a> Job<'a> {
             output,
             unsaved: Vec::new(),
             results: Results::default(),
+            values: ModelValues::default(),
             seconds: Vec::new(),
             cpu_seconds: Vec::new(),
             files: Vec::new(),

@@ -19,6 +19,7 @@ mod pairing;
 mod path_names;
 mod preloads;
 mod renamed;
+mod report;
 mod result_documents;
 mod resume;
 mod run_ups;

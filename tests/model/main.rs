@@ -11,4 +11,5 @@ mod key_contexts;
 mod papers;
 mod renamed;
 mod rig;
+mod schema;
 mod syntax;

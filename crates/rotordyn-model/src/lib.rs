@@ -7,10 +7,11 @@ pub mod file;
 pub mod keys;
 pub mod load;
 pub mod parameter_paths;
+pub mod schema;
 
 pub use build::catalogue;
 pub use file::renamed::renamed_path;
-pub use file::{DefaultValue, Diagnostic, Kind, ModelErrors, Source};
+pub use file::{DefaultValue, Diagnostic, GivenValue, Kind, ModelErrors, Source};
 pub use load::{
     Loaded, LoadedBearings, Options, external_files, item_span, load, load_bearings, load_bearings_with,
     load_with, variants,

@@ -4,10 +4,11 @@ mod parameter_range;
 
 use super::build;
 use super::file::diagnostic::{Log, Problem, Sources};
+use super::file::given::given_values;
 use super::file::overlay::{apply_set, apply_variant};
 use super::file::renamed;
 use super::file::tree::{Table, Value};
-use super::file::{DefaultValue, Diagnostic, Kind, ModelErrors, Source};
+use super::file::{DefaultValue, Diagnostic, GivenValue, Kind, ModelErrors, Source};
 use super::study::Studies;
 use super::{ExternalFile, Model};
 use rotordyn_bearing::free_ball::FreeBallBearing;
@@ -30,6 +31,8 @@ pub struct Loaded {
     pub warnings: Vec<Diagnostic>,
     /// Former spellings of renamed keys and keywords; the file is valid and means the same.
     pub hints: Vec<Diagnostic>,
+    /// Values that the file gives, after variant and overrides.
+    pub given: Vec<GivenValue>,
     /// Values that the file does not give.
     pub defaults: Vec<DefaultValue>,
     /// Texts that the spans of warnings and hints refer to: the file, then every `--set`.
@@ -120,7 +123,7 @@ pub fn load_with(
     }
     let defaults = log.defaults();
     let (sources, [warnings, hints]) = sources_and_warnings(sources, log)?;
-    Ok(Loaded { model, warnings, hints, defaults, sources, text })
+    Ok(Loaded { model, warnings, hints, given: given_values(&root), defaults, sources, text })
 }
 
 /// The ball bearings of a machine file or of a bearing-only file.

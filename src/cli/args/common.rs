@@ -97,18 +97,30 @@ pub struct OutputFiles {
     pub figures: bool,
     /// The tables as CSV files.
     pub csv: bool,
+    /// The page of the run.
+    pub page: bool,
 }
 
 impl From<&StudyArgs> for OutputFiles {
     fn from(args: &StudyArgs) -> Self {
-        Self { figures: !args.no_figures, csv: args.csv }
+        Self { figures: !args.no_figures, csv: args.csv, page: false }
     }
 }
 
 impl From<&StoredArgs> for OutputFiles {
     fn from(args: &StoredArgs) -> Self {
-        Self { figures: !args.no_figures, csv: args.csv }
+        Self { figures: !args.no_figures, csv: args.csv, page: false }
     }
+}
+
+/// Results whose page is written (`report`).
+#[derive(Args, Clone, Debug, Default)]
+pub struct ReportArgs {
+    /// results.h5 of a run, or its folder
+    pub file: PathBuf,
+    /// File to write [default: report.html beside results.h5]
+    #[arg(short, long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
 }
 
 /// Stored run-up and analysis settings (`spectrogram`, `orders`).

@@ -9,6 +9,9 @@ use crate::document::{Document, Rows, TO_RPM, in_hdf5, in_json, named};
 use rotordyn_linalg::Complex64;
 use serde::{Deserialize, Serialize};
 
+/// Most values of the stored shapes (16 MB): those of a shaft of many elements are left out.
+const MOST_SHAPE_VALUES: usize = 1 << 20;
+
 /// Campbell diagram with order lines and their crossings (critical speeds).
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct CampbellResult {
@@ -29,7 +32,9 @@ impl CampbellResult {
             modes.iter().map(|m| m.as_ref().map_or(f64::NAN, value)).collect()
         };
         let nan = Complex64::new(f64::NAN, f64::NAN);
-        let branches = Rows::of(&diagram.branches)
+        let found = diagram.branches.iter().flat_map(|b| &b.modes).flatten().next();
+        let nodes = found.map_or(0, |mode| mode.full_shape.len() / 6);
+        let mut branches = Rows::of(&diagram.branches)
             .text("label", |b| &b.label)
             .text("kind", |b| b.kind.name())
             .texts("labels", speeds.len(), |b| {
@@ -44,6 +49,14 @@ impl CampbellResult {
             .complex_numbers(in_json("eigenvalue"), "1/s", &cell, |b| -> Vec<_> {
                 b.modes.iter().map(|m| m.as_ref().map_or(nan, |m| m.eigenvalue)).collect()
             });
+        if diagram.branches.len() * speeds.len() * nodes * 6 <= MOST_SHAPE_VALUES {
+            let unit = "m/sqrt(kg) m, rad/sqrt(kg) m";
+            branches = branches.complex_numbers(in_hdf5("shapes"), unit, &[speeds.len(), nodes, 6], |b| {
+                let shape =
+                    |m: &Option<Mode>| m.as_ref().map_or(vec![nan; 6 * nodes], |m| m.full_shape.clone());
+                b.modes.iter().flat_map(shape).collect::<Vec<_>>()
+            });
+        }
         let orders =
             Rows::of(&self.orders).text("label", |o| &o.label).number("order", "1/revolution", |o| o.order);
         let omitted = Rows::of(&self.crossings.omitted)

@@ -73,6 +73,8 @@ keys! {
     static TOP: TopKeys {
         model: SubTable = sub_table(HeaderKeys::TABLE).required("");
         material: NamedTables = named_tables(MaterialKeys::TABLE);
+        schema: Text = text("address", "JSON Schema of the file, for editors.").named("$schema").optional()
+            .example("\"rotordyn.schema.json\"");
     }
 }
 
@@ -194,6 +196,8 @@ pub(crate) fn build_bearings(root: &Table, log: &Log) -> (String, String, Vec<(S
 }
 
 fn model_header(top: &Reader) -> (String, String, [f64; 3]) {
+    // For editors only.
+    top.text(&TOP.schema);
     if !top.has(&TOP.model) {
         let problem = Problem::new(Kind::MissingKey, &(0..0), "the file has no [model] table");
         top.log.error(problem.hint("start the file with\n[model]\nname = \"my_machine\""));

@@ -6,6 +6,7 @@
 //! continues and so reports all problems of a file at once, each with its exact span.
 
 pub(crate) mod diagnostic;
+pub(crate) mod given;
 pub(crate) mod items;
 pub mod key;
 pub(crate) mod overlay;
@@ -15,3 +16,4 @@ pub(crate) mod renamed;
 pub(crate) mod tree;
 
 pub use diagnostic::{DefaultValue, Diagnostic, Kind, ModelErrors, Source};
+pub use given::GivenValue;

@@ -16,6 +16,7 @@ use rotordyn_core::model::Model;
 use rotordyn_core::results::ModalResult;
 use rotordyn_core::study::Machine;
 
+/// Side view of the machine to scale.
 pub fn layout(machine: &Machine) -> Named {
     let model = &machine.model;
     let sections = scene::shaft_sections(model);

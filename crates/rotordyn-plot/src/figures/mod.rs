@@ -47,6 +47,7 @@ mod validation;
 
 use concern::Concern;
 pub use folder::FigureFolder;
+pub use machine::layout;
 use named::TO_RPM;
 pub use named::{Named, WithWarnings};
 pub use validation::Stage;

@@ -1,0 +1,222 @@
+"""Opens report pages in headless Chromium and checks what a reader would.
+
+    check_reports.py CHROMIUM PAGE RESULTS [PAGE RESULTS ...] [--shots FOLDER]
+
+Prints a line for every page and every fault; exit code 1 with faults.
+"""
+
+import math
+import sys
+from pathlib import Path
+
+import h5py
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import sync_playwright
+
+FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+HOVER_DIGITS = 5e-5  # half a unit of the fifth digit
+
+
+class Faults:
+    def __init__(self, page):
+        self.page = page
+        self.list = []
+
+    def unless(self, holds, words):
+        if not holds:
+            self.list.append(words)
+
+
+def open_page(browser, path, faults, **options):
+    page = browser.new_page(**options)
+    page.on("console", lambda message: faults.unless(message.type != "error", f"console: {message.text}"))
+    page.on("pageerror", lambda error: faults.unless(False, f"script: {error}"))
+    local = ("file:", "data:", "blob:")
+    page.on("request", lambda request: faults.unless(request.url.startswith(local), f"request: {request.url[:100]}"))
+    page.goto(path.as_uri())
+    page.wait_for_selector("body[data-ready]", timeout=120_000)
+    return page
+
+
+def draw_all(page):
+    page.evaluate("charts.forEach((made) => made.draw())")
+    page.wait_for_function("charts.every((made) => made.plot.data !== undefined)", timeout=120_000)
+
+
+def check_curves(page, faults):
+    counts = page.evaluate("charts.map((made) => [made.node.textContent.slice(0, 40), made.plot.data.filter((t) => t.x && t.x.length > 0).length])")
+    for words, curves in counts:
+        faults.unless(curves > 0, f"no curve in: {words}")
+    faults.unless(page.locator("p.failed").count() == 0, "a section failed")
+    return len(counts)
+
+
+def hover(page, chart, curve, point):
+    """What hovering over a point of a curve says."""
+    return page.evaluate(
+        """([chart, curve, point]) => new Promise((resolve) => {
+            const plot = charts[chart].plot;
+            plot.once("plotly_hover", (event) => resolve(event.points.map((p) => [p.x, p.y])));
+            const trace = plot.data[curve];
+            Plotly.Fx.hover(plot, [{ curveNumber: curve, pointNumber: point }], trace.yaxis === "y2" ? "xy2" : "xy");
+        }).then((points) => [points, [...charts[chart].plot.querySelectorAll(".hovertext")].map((t) => t.textContent).join(" ")])""",
+        [chart, curve, point],
+    )
+
+
+def chart_index(page, words):
+    return page.evaluate("(words) => charts.findIndex((made) => made.node.textContent.includes(words))", words)
+
+
+def numbers_in(text):
+    found = []
+    for word in text.replace("−", "-").replace("<b>", " ").replace(":", " ").split():
+        try:
+            found.append(float(word))
+        except ValueError:
+            pass
+    return found
+
+
+def says(text, value):
+    return any(math.isclose(number, value, rel_tol=HOVER_DIGITS, abs_tol=1e-300) for number in numbers_in(text))
+
+
+def check_hovers(page, results, faults):
+    """A point of the Campbell diagram, of an FRF and of the unbalance response against the file."""
+    checked = 0
+    if "campbell/frequency" in results:
+        frequency = results["campbell/frequency"][()]
+        chart = chart_index(page, "Campbell diagram:")
+        branch, speed = 0, frequency.shape[1] // 2
+        _, text = hover(page, chart, 2 * branch, speed)
+        faults.unless(says(text, frequency[branch, speed]), f"Campbell hover says {text!r}, file {frequency[branch, speed]}")
+        checked += 1
+    if "frf/response" in results:
+        response = results["frf/response"][0, 0]
+        point = len(response) // 3
+        _, text = hover(page, chart_index(page, "Frequency response functions of"), 0, point)
+        faults.unless(says(text, abs(response[point])), f"FRF hover says {text!r}, file {abs(response[point])}")
+        checked += 1
+    if "unbalance/channels" in results:
+        name = sorted(results["unbalance/channels"])[0]
+        values = results[f"unbalance/channels/{name}"]
+        unit = values.attrs["unit"]
+        factor = {"m": 1e6, "m/s": 1e3}.get(unit if isinstance(unit, str) else unit.decode(), 1.0)
+        point = len(values) // 2
+        _, text = hover(page, chart_index(page, "Response to unbalance:"), 0, point)
+        expected = factor * abs(values[point])
+        faults.unless(says(text, expected), f"unbalance hover says {text!r}, file {expected}")
+        checked += 1
+    return checked
+
+
+def check_shapes(page, results, faults):
+    """Every mode moves: a picture of it differs from one a moment later."""
+    if page.locator("canvas").count() == 0:
+        return 0
+    faults.unless(page.locator(".viewer p").count() == 0, "no WebGL")
+    canvas = page.locator("canvas")
+    canvas.scroll_into_view_if_needed()
+    lists = page.locator("#campbell select, #shapes select")
+    choice = page.locator("#campbell select").first if "campbell/shapes" in results else lists.last
+    modes = choice.locator("option").count()
+    for mode in range(modes):
+        choice.select_option(index=mode)
+        canvas.scroll_into_view_if_needed()
+        before = page.evaluate("document.querySelector('canvas').toDataURL()")
+        page.wait_for_function("(before) => document.querySelector('canvas').toDataURL() !== before", arg=before, timeout=20_000)
+        faults.unless(page.locator(".says").inner_text().strip() != "", f"mode {mode} is not named")
+    return modes
+
+
+def check_keyboard(page, faults):
+    """Tab reaches every control, in no more stops than there are."""
+    page.evaluate("document.activeElement.blur()")
+    # The numbers are set once, so that the order of the stops does not matter.
+    count = page.evaluate(
+        """() => {
+            const all = [...document.querySelectorAll("a[href], button, select, input, summary, canvas, [tabindex='0']")];
+            const shown = all.filter((e) => e.checkVisibility() && !e.disabled);
+            shown.forEach((e, k) => (e.dataset.stop = k));
+            return shown.length;
+        }"""
+    )
+    reached = set()
+    for _ in range(count + 40):
+        page.keyboard.press("Tab")
+        stop = page.evaluate("document.activeElement?.dataset?.stop ?? null")
+        if stop is not None:
+            reached.add(int(stop))
+        if len(reached) == count:
+            break
+    missed = sorted(set(range(count)) - reached)
+    if missed:
+        names = page.evaluate("(missed) => missed.map((k) => document.querySelector(`[data-stop='${k}']`).outerHTML.slice(0, 90))", missed[:5])
+        faults.unless(False, f"{len(missed)} of {count} controls are not reached by Tab: {names}")
+    return count
+
+
+def check_accessibility(page, faults):
+    found = Axe().run(page).response["violations"]
+    for violation in found:
+        if violation["impact"] in ("serious", "critical"):
+            where = violation["nodes"][0]["html"][:120]
+            faults.unless(False, f"axe {violation['id']} ({violation['impact']}, {len(violation['nodes'])}): {where}")
+
+
+def check(browser, path, results_path, shots):
+    faults = Faults(path)
+    page = open_page(browser, path, faults, viewport={"width": 1280, "height": 900})
+    draw_all(page)
+    with h5py.File(results_path) as results:
+        curves = check_curves(page, faults)
+        hovers = check_hovers(page, results, faults)
+        modes = check_shapes(page, results, faults)
+    controls = check_keyboard(page, faults)
+    check_accessibility(page, faults)
+    page.locator("#theme").click()
+    page.wait_for_timeout(300)
+    check_accessibility(page, faults)
+    if shots:
+        take_shots(browser, path, faults, shots)
+    page.close()
+    print(f"{path}: {curves} charts, {hovers} hovers, {modes} modes, {controls} controls, {len(faults.list)} faults")
+    for fault in faults.list:
+        print(f"  {fault}")
+    return len(faults.list)
+
+
+def take_shots(browser, path, faults, folder):
+    stem = f"{path.parent.name}_{path.stem}"
+    for name, width, scheme in [("light", 1280, "light"), ("dark", 1280, "dark"), ("narrow", 400, "light")]:
+        page = open_page(browser, path, faults, viewport={"width": width, "height": 900}, color_scheme=scheme)
+        draw_all(page)
+        page.wait_for_timeout(1500)
+        wide = page.evaluate("document.documentElement.scrollWidth")
+        faults.unless(wide <= width, f"{name}: the page is {wide} px wide in a window of {width}")
+        page.screenshot(path=str(folder / f"{stem}_{name}.png"), full_page=True)
+        page.close()
+    page = open_page(browser, path, faults)
+    page.pdf(path=str(folder / f"{stem}.pdf"), prefer_css_page_size=True)
+    page.close()
+
+
+def main(arguments):
+    shots = None
+    if "--shots" in arguments:
+        at = arguments.index("--shots")
+        shots = Path(arguments[at + 1])
+        shots.mkdir(parents=True, exist_ok=True)
+        del arguments[at : at + 2]
+    chromium, *files = arguments
+    pairs = list(zip(files[::2], files[1::2]))
+    with sync_playwright() as play:
+        browser = play.chromium.launch(executable_path=chromium, args=FLAGS)
+        faults = sum(check(browser, Path(page).resolve(), results, shots) for page, results in pairs)
+        browser.close()
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

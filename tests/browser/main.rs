@@ -1,0 +1,79 @@
+//! Pages of five machines in headless Chromium: no error and no request, every figure has its curves, hovers say what
+//! the results file says, every mode moves, the keyboard reaches every control, axe finds no serious fault.
+//!
+//! Needs Chromium (`ROTORDYN_CHROMIUM`, or in the path) and a Python with h5py, playwright and axe-playwright-python.
+//! `ROTORDYN_SHOTS=FOLDER` keeps pictures: light, dark, narrow, and a PDF.
+
+use assert_cmd::Command;
+use std::path::{Path, PathBuf};
+
+/// Machines, each with settings that keep it short.
+const MACHINES: [(&str, &[&str]); 5] = [
+    (
+        "overhung_rig",
+        &[
+            "speed.settle=0.1 s",
+            "speed.ramp=0.6 s",
+            "speed.hold=0.1 s",
+            "study.spectrogram.length=0.1 s",
+            "study.orders.resolution=0.5",
+        ],
+    ),
+    ("jeffcott", &["speed.ramp=1 s", "speed.hold=0.2 s"]),
+    ("nelson_mcvaugh", &[]),
+    ("two_disc_pedestals", &[]),
+    ("zhang_2016", &[]),
+];
+
+fn chromium() -> Option<PathBuf> {
+    let named = std::env::var_os("ROTORDYN_CHROMIUM").map(PathBuf::from);
+    let folders = std::env::var_os("PATH").unwrap_or_default();
+    let folders: Vec<PathBuf> = std::env::split_paths(&folders).collect();
+    let in_path = ["chromium", "chromium-browser", "google-chrome"].into_iter();
+    named.or_else(|| in_path.flat_map(|name| folders.iter().map(move |f| f.join(name))).find(|p| p.is_file()))
+}
+
+/// Chromium and Python; else the test is skipped, or fails with `CI` set.
+fn tools() -> Option<(PathBuf, String)> {
+    let python = std::env::var("ROTORDYN_PYTHON").unwrap_or_else(|_| "python3".into());
+    let import = ["-c", "import h5py, playwright, axe_playwright_python"];
+    let has_modules =
+        std::process::Command::new(&python).args(import).output().is_ok_and(|done| done.status.success());
+    let found = chromium().filter(|_| has_modules);
+    if found.is_none() {
+        let message = "no Chromium, or no Python with h5py, playwright and axe-playwright-python";
+        let must_run = std::env::var_os("CI").is_some() && std::env::var_os("ROTORDYN_ALLOW_SKIP").is_none();
+        assert!(!must_run, "{message}; set ROTORDYN_ALLOW_SKIP to skip the test");
+        eprintln!("skipped: {message}");
+    }
+    Some((found?, python))
+}
+
+#[test]
+fn pages_work_in_a_browser() {
+    let Some((chromium, python)) = tools() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut arguments = Vec::new();
+    for (name, settings) in MACHINES {
+        let out = folder.path().join(name);
+        let mut run = Command::cargo_bin("rotordyn").unwrap();
+        run.current_dir(root)
+            .arg("run")
+            .arg(format!("models/{name}.toml"))
+            .arg("--quiet")
+            .arg("--out")
+            .arg(&out);
+        run.args(settings.iter().flat_map(|value| ["--set", value])).assert().success();
+        arguments.extend([out.join("report.html"), out.join("results.h5")]);
+    }
+    let mut check = std::process::Command::new(python);
+    check.arg(root.join("tests/browser/check_reports.py")).arg(chromium).args(&arguments);
+    if let Some(shots) = std::env::var_os("ROTORDYN_SHOTS") {
+        check.arg("--shots").arg(shots);
+    }
+    let done = check.output().unwrap();
+    let [said, errors] = [&done.stdout, &done.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
+    println!("{said}");
+    assert!(done.status.success(), "{said}\n{errors}");
+}
