@@ -410,9 +410,10 @@ Examples:
   rotordyn help bearing.preload
   rotordyn help study.run_up.step
   rotordyn help --schema > rotordyn.schema.json
+  rotordyn help commands
   rotordyn help run-up")]
     Help {
-        /// Path of a table or key, such as bearing.preload, or a command
+        /// Path of a table or key, such as bearing.preload, or a command; `commands` and `warnings` list them all
         path: Option<String>,
         /// Print the JSON Schema of the model file, for editors that complete and explain its keys
         #[arg(long, conflicts_with = "path")]

@@ -1,12 +1,11 @@
 //! `help`: the keys of the model file as they are declared, or the help of a command.
 
-use clap::CommandFactory;
 use rotordyn::model::keys::{self, Found, KeyDescription, KindName};
 use rotordyn::names;
 use rotordyn::warning::Code;
 use serde_json::{Value, json};
 
-use super::args::Cli;
+use super::command_help;
 use super::failure::Failure;
 use super::terminal::Terminal;
 
@@ -26,6 +25,9 @@ pub fn run(path: Option<&str>, terminal: &Terminal) -> Result<Value, Failure> {
     if path == "warnings" {
         return Ok(all_codes(terminal));
     }
+    if path == "commands" {
+        return Ok(command_help::all(terminal));
+    }
     if let Some(code) = Code::ALL.iter().find(|code| code.name() == path) {
         print_code(*code, terminal);
         return Ok(json!({ "command": "help", "path": path, "warning": code_to_json(*code) }));
@@ -33,9 +35,9 @@ pub fn run(path: Option<&str>, terminal: &Terminal) -> Result<Value, Failure> {
     let found = match keys::find(path) {
         Ok(found) => found,
         Err(unknown) => {
-            let help = command_help(path).ok_or_else(|| {
-                let lists =
-                    "`rotordyn help` lists the tables, `rotordyn help warnings` the codes of warnings";
+            let help = command_help::text(path).ok_or_else(|| {
+                let lists = "`rotordyn help` lists the tables, `rotordyn help commands` the commands, \
+                             `rotordyn help warnings` the codes of warnings";
                 let meant =
                     nearest_code(path).map(|code| format!("; did you mean the warning {}?", code.name()));
                 Failure::Input(format!("{unknown}{} ({lists})", meant.unwrap_or_default()))
@@ -48,7 +50,7 @@ pub fn run(path: Option<&str>, terminal: &Terminal) -> Result<Value, Failure> {
         terminal.note(&format!("`{former}` is now `{}`", found.path));
     }
     print(&found, terminal);
-    if !path.is_empty() && command_help(path).is_some() {
+    if !path.is_empty() && command_help::text(path).is_some() {
         terminal.print(&format!("\nThe command of this name: rotordyn {path} --help"));
     }
     Ok(json!({
@@ -109,13 +111,6 @@ fn code_to_json(code: Code) -> Value {
         "when": code.when(),
         "advice": code.advice(),
     })
-}
-
-/// Long help of a command.
-fn command_help(name: &str) -> Option<String> {
-    let mut cli = Cli::command();
-    let command = cli.find_subcommand_mut(name)?;
-    Some(command.render_long_help().to_string())
 }
 
 fn to_json(key: &KeyDescription) -> Value {
@@ -291,7 +286,8 @@ fn broken(text: &str, width: usize) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::super::args::Cli;
+    use clap::CommandFactory;
 
     /// Help texts that come from a declaration are built with the command.
     #[test]

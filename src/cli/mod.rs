@@ -9,6 +9,7 @@ mod cage_tables;
 mod catalogue;
 mod check;
 mod checkpoint;
+mod command_help;
 mod compare;
 mod csv_files;
 mod defaults;

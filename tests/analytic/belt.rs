@@ -1,6 +1,7 @@
 //! Belt on a rigid shaft with two spring bearings: static equilibrium, transient from equilibrium, step load,
 //! damping.
 
+use crate::agree;
 use rotordyn::analysis::modal;
 use rotordyn::model::study::{CriticalStudy, EquilibriumStudy};
 use rotordyn::model::{Options, load};
@@ -97,11 +98,17 @@ fn static_equilibrium_under_belt_pull() {
             let computed = machine.assembly.direction_row(&probe.at, &probe.direction).dot(&found.q);
             let expected = static_displacement(constant, axis);
             // Equilibrium residual: 1e-10 of the pull.
-            assert!((computed / expected - 1.0).abs() < 1e-8, "{constant} {axis}: {computed} {expected}");
+            agree::relative(
+                format_args!("static displacement, constant pull {constant}, axis {axis} [m]"),
+                computed,
+                expected,
+                1e-8,
+            );
             // The bearing forces balance the remaining belt pull.
             let remaining_pull = if constant { PULL[axis] } else { PULL[axis] - STIFFNESS[axis] * expected };
             let force: f64 = found.bearings.iter().map(|b| b.force[axis]).sum();
-            assert!((force + remaining_pull).abs() < 1e-6, "{constant} {axis}: {force} {remaining_pull}");
+            let what = format_args!("bearing forces, constant pull {constant}, axis {axis} [N]");
+            agree::absolute(what, force, -remaining_pull, 1e-6);
         }
     }
 }
@@ -126,13 +133,20 @@ fn transient_from_equilibrium_stays_at_equilibrium() {
     for constant in [true, false] {
         let (last, deviation) = run(&machine(constant, ""));
         for axis in 0..2 {
-            assert!(
-                (last[axis] / static_displacement(constant, axis) - 1.0).abs() < 1e-8,
-                "{constant} {axis}: {last:?}"
+            agree::relative(
+                format_args!("end of the run, constant pull {constant}, axis {axis} [m]"),
+                last[axis],
+                static_displacement(constant, axis),
+                1e-8,
             );
         }
         // Deflection 200 um; accuracy of the equilibrium 1e-10 of it.
-        assert!(deviation < 1e-13, "{constant}: {deviation} m");
+        agree::absolute(
+            format_args!("drift from equilibrium, constant pull {constant} [m]"),
+            deviation,
+            0.0,
+            1e-13,
+        );
     }
 }
 
@@ -146,7 +160,12 @@ fn step_load_with_belt_stiffness() {
             let s = compliance();
             let expected = static_displacement(constant, axis) + s * more / (1.0 + s * STIFFNESS[axis]);
             // The slowest mode, 590 rad/s with a decay rate of 80 1/s, has decayed to e⁻⁴⁰ of the step.
-            assert!((last[axis] / expected - 1.0).abs() < 1e-8, "{constant} {axis}: {last:?} {expected}");
+            agree::relative(
+                format_args!("after a step load, constant pull {constant}, axis {axis} [m]"),
+                last[axis],
+                expected,
+                1e-8,
+            );
         }
     }
 }
@@ -176,11 +195,11 @@ fn damping_ratio_and_log_decrement_of_belt_damping() {
         let damped: Vec<_> = modes.iter().filter(|m| m.zeta() > 1e-6).collect();
         assert_eq!(damped.len(), 1, "only the mode along x is damped by the belt");
         let mode = damped[0];
-        let close = |found: f64, exact: f64| (found / exact - 1.0).abs() < 1e-9;
-        assert!(close(mode.zeta(), zeta), "{} {zeta}", mode.zeta());
-        assert!(close(mode.omega(), omega), "{} {omega}", mode.omega());
+        agree::relative(format_args!("damping ratio with {damping} N s/m"), mode.zeta(), zeta, 1e-9);
+        agree::relative(format_args!("frequency with {damping} N s/m [rad/s]"), mode.omega(), omega, 1e-9);
         let decrement = -sigma * std::f64::consts::TAU / omega;
-        assert!(close(mode.log_dec(), decrement), "{} {decrement}", mode.log_dec());
+        let what = format_args!("logarithmic decrement with {damping} N s/m");
+        agree::relative(what, mode.log_dec(), decrement, 1e-9);
 
         // Without gyroscopic effect the order line n Ω crosses the damped frequency of the mode along x at
         // ω/n.
@@ -188,11 +207,9 @@ fn damping_ratio_and_log_decrement_of_belt_damping() {
             let found = machine.critical(&CriticalStudy { max_speed: 2000.0, orders: vec![order] }).unwrap();
             let damped_speeds: Vec<f64> =
                 found.crossings.list.iter().filter(|c| c.mode.zeta() > 1e-6).map(|c| c.speed).collect();
-            assert!(
-                damped_speeds.len() == 1 && close(damped_speeds[0], omega / order),
-                "{order}: {damped_speeds:?} {}",
-                omega / order
-            );
+            assert_eq!(damped_speeds.len(), 1, "{order}: {damped_speeds:?} {}", omega / order);
+            let what = format_args!("critical speed of order {order} with {damping} N s/m [rad/s]");
+            agree::relative(what, damped_speeds[0], omega / order, 1e-9);
         }
     }
 }

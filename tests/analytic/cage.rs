@@ -1,6 +1,7 @@
 //! Cage speed of a thrust-loaded angular-contact bearing compared with the closed form at its loaded contact
 //! angle.
 
+use crate::agree;
 use rotordyn::model::{Options, SpeedProfile, load};
 use rotordyn::study::Machine;
 use rotordyn::transient::run::End;
@@ -89,6 +90,6 @@ fn cage_speed_at_loaded_contact_angle() {
         let [shaft, cage] = end;
         assert!((shaft / TAU).abs() > 6.0);
         // Equilibrium tolerance 1e-10, and a ring displacement of 1e-12 m due to contact damping.
-        assert!((cage / (ratio(low) * shaft) - 1.0).abs() < 1e-8, "{cage} {}", ratio(low) * shaft);
+        agree::relative(format_args!("cage angle at {force} N thrust [rad]"), cage, ratio(low) * shaft, 1e-8);
     }
 }

@@ -1,5 +1,6 @@
 //! Effective modal masses of uniform beams compared with closed forms, and their sum over all modes.
 
+use crate::agree;
 use crate::machine::{element, shaft};
 use rotordyn::analysis::ModeKind;
 use rotordyn::analysis::modal::{self, Mode};
@@ -21,6 +22,7 @@ fn beam(elements: usize, constrained: &[(usize, [bool; 6])]) -> Vec<Mode> {
     modal::modes(&assembly, &LinearSystem::new(&assembly, &[], 0.0).unwrap(), 14).unwrap()
 }
 
+#[track_caller]
 fn check_effective_masses(modes: &[Mode], kind: ModeKind, direction: usize, shares: &[f64]) {
     let found: Vec<&Mode> = modes.iter().filter(|m| m.kind == kind).collect();
     assert!(found.len() >= shares.len(), "{} of {kind:?}", found.len());
@@ -28,8 +30,8 @@ fn check_effective_masses(modes: &[Mode], kind: ModeKind, direction: usize, shar
         for axis in 0..3 {
             let expected = if axis == direction { *share } else { 0.0 };
             // Discretisation error of 24 cubic elements: at most (k h)⁴/720 of the fourth mode.
-            let error = (mode.effective_mass[axis] - expected).abs();
-            assert!(error < 2e-4, "{kind:?} {k} axis {axis}: {} {expected}", mode.effective_mass[axis]);
+            let what = format_args!("{kind:?} {k}: effective mass along axis {axis}");
+            agree::absolute(what, mode.effective_mass[axis], expected, 2e-4);
         }
     }
 }
@@ -58,7 +60,7 @@ fn effective_masses_of_cantilever_beam() {
     });
     // Published values, four digits.
     for (share, published) in shares.iter().zip([0.6131, 0.1883, 0.0647]) {
-        assert!((share - published).abs() < 5e-5, "{share} {published}");
+        agree::absolute("share of the effective mass, published", *share, published, 5e-5);
     }
     for (kind, direction) in [(ModeKind::PlaneX, 0), (ModeKind::PlaneY, 1)] {
         check_effective_masses(&modes, kind, direction, &shares);
@@ -126,7 +128,7 @@ fn effective_masses_sum_to_total_mass() {
         for axis in 0..3 {
             let sum: f64 = modes.iter().map(|m| m.effective_mass[axis]).sum();
             // Round-off of eigenvectors.
-            assert!((sum - 1.0).abs() < 1e-9, "axis {axis}: {sum}");
+            agree::absolute(format_args!("sum of the effective masses, axis {axis}"), sum, 1.0, 1e-9);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Clearance change by fits compared with closed forms of thick and thin rings.
 
+use crate::agree;
 use crate::bearing::{rig_6205, steel};
 use rotordyn::bearing::{BallBearing, BallElement, BallGeometry, Fit, FitMaterials, Rotation};
 use rotordyn::element::Material;
@@ -13,8 +14,14 @@ fn races(g: &BallGeometry) -> [f64; 2] {
     [g.pitch_diameter - g.ball_diameter, g.pitch_diameter + g.ball_diameter]
 }
 
+#[track_caller]
+fn assert_unchanged(change: f64, tolerance: f64) {
+    agree::absolute("change of clearance, none [m]", change, 0.0, tolerance);
+}
+
+#[track_caller]
 fn assert_relative(value: f64, exact: f64, tolerance: f64) {
-    assert!((value / exact - 1.0).abs() < tolerance, "{value} instead of {exact}");
+    agree::relative("change of clearance [m]", value, exact, tolerance);
 }
 
 #[test]
@@ -32,7 +39,7 @@ fn shaft_fit_with_shaft_of_ring_material() {
     // A shaft of negligible stiffness does not expand the race.
     let rubber = Material { young: 1.0, ..steel.clone() };
     let materials = FitMaterials { shaft: &rubber, ..FitMaterials::all(&steel) };
-    assert!(fit.clearance_change(&g, &materials, 0.0).abs() < 1e-15);
+    assert_unchanged(fit.clearance_change(&g, &materials, 0.0), 1e-15);
 }
 
 #[test]
@@ -50,7 +57,7 @@ fn housing_fit_with_housing_of_ring_material() {
     assert_relative(rigid, -9e-6 * e / g.outside_diameter * 2.0 / (1.0 + ratio - 0.3 * (1.0 - ratio)), 1e-13);
     // A thin housing gives almost none.
     let thin = Fit { housing_diameter: g.outside_diameter * (1.0 + 1e-6), ..fit };
-    assert!(thin.clearance_change(&g, &FitMaterials::all(&steel), 0.0).abs() < 1e-9);
+    assert_unchanged(thin.clearance_change(&g, &FitMaterials::all(&steel), 0.0), 1e-9);
 }
 
 #[test]
@@ -150,7 +157,8 @@ fn contact_begins_at_mounted_clearance() {
             let found = element.reaction(&[x, 0.0, 0.0, 0.0, 0.0, 0.0], &[0.0; 6], &rotation).force;
             assert_eq!(force > 0.0, penetration > 0.0);
             // Round-off of approaches of 1e-6 m as differences of lengths of 1e-3 m.
-            assert!((found[0] + force).abs() <= 1e-8 * force, "{speed} {penetration}: {} {force}", found[0]);
+            let what = format_args!("{speed} rad/s, {penetration} m: force [N]");
+            agree::absolute(what, found[0], -force, 1e-8 * force);
         }
     }
 }

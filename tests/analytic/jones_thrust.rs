@@ -1,6 +1,7 @@
 //! Angular contact bearings under pure thrust at high speed: the equations of Jones and Harris for one ball,
 //! solved here by nested bisection in the two contact angles, cage speed included.
 
+use crate::agree;
 use crate::bearing::rig_6205;
 use rotordyn::analysis::bearing_stiffness::{BearingSolver, Condition};
 use rotordyn::analysis::equilibrium::CageTreatment;
@@ -74,7 +75,7 @@ fn ball_under_thrust(bearing: &BallBearing, thrust: f64, speed: f64) -> Ball {
     };
     let ai = bisect(1e-3, FRAC_PI_2 - 1e-3, |ai| -radial_force(ai));
     let ao = outer_angle(ai);
-    assert!(radial_force(ai).abs() < 1e-6 * (thrust + centrifugal(ai, ao)), "{}", radial_force(ai));
+    agree::curve("radial balance of a ball", radial_force(ai).abs(), thrust + centrifugal(ai, ao), 1e-6);
     let axial = inner_length(ai) * ai.sin() + outer_length(ai, ao) * ao.sin();
     Ball {
         angles: [ai, ao],
@@ -110,17 +111,37 @@ fn thrust_at_speed_agrees_with_jones_and_harris() {
             let ours = BallElement::new(&bearing);
             let ball = at(thrust);
             // Bisection of the angles to round-off.
-            assert!((d[2] - ball.displacement).abs() < 1e-13, "{rpm} rpm: {} {}", d[2], ball.displacement);
+            agree::absolute(
+                format_args!("{rpm} rpm: axial displacement [m]"),
+                d[2],
+                ball.displacement,
+                1e-13,
+            );
             let rotation = Rotation { shaft_speed: speed, ..Rotation::default() };
             for load in ours.ball_loads(&[0.0, 0.0, d[2], 0.0, 0.0, 0.0], &rotation) {
-                assert!((load.contact_angle - ball.angles[0]).abs() < 1e-9, "{load:?}");
-                assert!((load.outer_contact_angle - ball.angles[1]).abs() < 1e-9, "{load:?}");
+                agree::absolute(
+                    format_args!("{rpm} rpm: inner contact angle [rad]"),
+                    load.contact_angle,
+                    ball.angles[0],
+                    1e-9,
+                );
+                agree::absolute(
+                    format_args!("{rpm} rpm: outer contact angle [rad]"),
+                    load.outer_contact_angle,
+                    ball.angles[1],
+                    1e-9,
+                );
             }
-            assert!((ours.cage_ratio(mean_cos) - ball.cage_ratio).abs() < 1e-10);
+            agree::absolute(
+                format_args!("{rpm} rpm: cage speed ratio"),
+                ours.cage_ratio(mean_cos),
+                ball.cage_ratio,
+                1e-10,
+            );
             let h = 1e-4 * thrust;
             let slope = 2.0 * h / (at(thrust + h).displacement - at(thrust - h).displacement);
             // Differences of displacements of 1e-15 m round-off over 10 nm, and h².
-            assert!((k[2][2] / slope - 1.0).abs() < 1e-5, "{rpm} rpm: k_zz {} {slope}", k[2][2]);
+            agree::relative(format_args!("{rpm} rpm: axial stiffness [N/m]"), k[2][2], slope, 1e-5);
         }
     }
 }
@@ -130,8 +151,8 @@ fn bearing_218_at_the_ends_of_its_run_up() {
     let (slow, ..) = solve(&bearing_218(), 17.8e3, 10000.0);
     let (fast, k, _) = solve(&bearing_218(), 17.8e3, 15000.0);
     // End of a run-up of the same bearing, to its printed digits.
-    assert!((slow[2] - 14.57e-6).abs() < 0.005e-6, "{}", slow[2]);
-    assert!((fast[2] + 48.6e-6).abs() < 0.05e-6, "{}", fast[2]);
+    agree::absolute("axial displacement at low speed [m]", slow[2], 14.57e-6, 0.005e-6);
+    agree::absolute("axial displacement at high speed [m]", fast[2], -48.6e-6, 0.05e-6);
     // Balls that keep one cage speed under radial displacement; 6.06e7 N/m with an orbital speed of its own for
     // every ball, which is the change of Q_i cos α_i when the clearance brings all balls nearer.
     let radial = |extent: f64| {
@@ -142,6 +163,6 @@ fn bearing_218_at_the_ends_of_its_run_up() {
         ball.load * ball.contact_angle.cos()
     };
     let own_orbits = 8.0 * (radial(1e-8) - radial(-1e-8)) / 2e-8;
-    assert!((own_orbits / 6.06e7 - 1.0).abs() < 1e-3, "{own_orbits}");
-    assert!((k[0][0] / 7.674e7 - 1.0).abs() < 1e-3, "{}", k[0][0]);
+    agree::relative("axial stiffness, each ball on its own orbit [N/m]", own_orbits, 6.06e7, 1e-3);
+    agree::relative("radial stiffness [N/m]", k[0][0], 7.674e7, 1e-3);
 }

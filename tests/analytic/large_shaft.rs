@@ -1,5 +1,6 @@
 //! Shafts of many elements: banded solutions against the Euler-Bernoulli beam and against dense ones; what is refused.
 
+use crate::agree;
 use crate::machine::{disc, element, shaft};
 use rotordyn::analysis::equilibrium::{CageTreatment, equilibrium};
 use rotordyn::analysis::{frf::frf, modal};
@@ -46,9 +47,7 @@ fn compare_with_euler_bernoulli(elements: usize) {
     let stiffness = 2.1e11 * PI / 64.0 * DIAMETER.powi(4);
     let mass = 7850.0 * PI / 4.0 * DIAMETER.powi(2);
     let close = |name: &str, found: f64, expected: f64| {
-        let off = found / expected - 1.0;
-        println!("{elements} elements, {name}: {found:.9e}, closed form {expected:.9e}, off by {off:.1e}");
-        assert!(off.abs() < 1e-6, "{name}: {found} {expected}");
+        agree::relative(format_args!("{elements} elements: {name}"), found, expected, 1e-6);
     };
 
     let found = equilibrium(&model, &assembly, 0.0, CageTreatment::Averaged, None).unwrap();
@@ -103,9 +102,9 @@ fn banded_modes_are_the_dense_ones() {
         };
         dense.sort_by(f64::total_cmp);
         for (mode, expected) in found.iter().zip(&dense) {
-            let off = mode.natural_omega() / expected - 1.0;
-            println!("{elements} elements: {expected:.6} rad/s, banded off by {off:.1e}");
-            assert!(off.abs() < 1e-5, "{elements}: {} {expected}", mode.natural_omega());
+            let what =
+                format_args!("{elements} elements at {speed} rad/s: frequency by the dense solver [rad/s]");
+            agree::relative(what, mode.natural_omega(), *expected, 1e-5);
         }
     }
 }
@@ -144,6 +143,8 @@ fn extent_names_the_part_with_most_elements() {
     let extent = ShaftExtent::of(&shaft(elements));
     let part = extent.part.unwrap();
     assert_eq!((extent.nodes, part.elements), (12, 7));
-    assert!((part.z[0] - 0.15).abs() < 1e-12 && (part.z[1] - 0.22).abs() < 1e-12);
-    assert!((extent.length - 0.27).abs() < 1e-12 && (extent.slenderness() - 3.5).abs() < 1e-9);
+    agree::absolute("start of the part [m]", part.z[0], 0.15, 1e-12);
+    agree::absolute("end of the part [m]", part.z[1], 0.22, 1e-12);
+    agree::absolute("length of the shaft [m]", extent.length, 0.27, 1e-12);
+    agree::absolute("slenderness of the shaft", extent.slenderness(), 3.5, 1e-9);
 }

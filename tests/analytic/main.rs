@@ -1,5 +1,7 @@
 //! Closed forms.
 
+#[path = "../common/agree.rs"]
+mod agree;
 #[path = "../../crates/rotordyn-bearing/tests/common/bearing.rs"]
 mod bearing;
 #[path = "../common/machine.rs"]

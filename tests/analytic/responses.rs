@@ -1,6 +1,7 @@
 //! Closed-form responses of one mass: FRF, step response, self-excited whirl (internal damping); axes of
 //! elliptic orbits.
 
+use crate::agree;
 use crate::machine::{disc, element, shaft};
 use nalgebra::Complex;
 use rotordyn::analysis::frf::frf;
@@ -27,9 +28,10 @@ fn axes_and_inclination_of_elliptic_orbit() {
         let x = C::new(a * cos, b * sin) * phasor;
         let y = C::new(a * sin, -b * cos) * phasor;
         let orbit = Orbit::new(x, y);
-        assert!((orbit.major - a).abs() < 1e-14 && (orbit.minor - b).abs() < 1e-14, "{orbit:?}");
+        agree::absolute("major semi-axis", orbit.major, a, 1e-14);
+        agree::absolute("minor semi-axis", orbit.minor, b, 1e-14);
         let off = (orbit.inclination - inclination).rem_euclid(PI);
-        assert!(off.min(PI - off) < 1e-14, "{orbit:?}");
+        agree::absolute("inclination of the orbit, error [rad]", off.min(PI - off), 0.0, 1e-14);
         assert!(orbit.whirl * b > 0.0);
     }
 }
@@ -38,7 +40,7 @@ fn axes_and_inclination_of_elliptic_orbit() {
 #[test]
 fn dowson_higginson_density_ratio() {
     let oil = Lubricant { name: "oil".into(), viscosity: 0.04, pressure_viscosity: 2e-8, density: 870.0 };
-    assert!((oil.density_ratio(1e9) - 193.0 / 159.0).abs() < 1e-14);
+    agree::absolute("density ratio at 1 GPa", oil.density_ratio(1e9), 193.0 / 159.0, 1e-14);
     assert_eq!(oil.density_ratio(0.0), 1.0);
 }
 
@@ -114,7 +116,7 @@ fn receptance_mobility_and_accelerance() {
             let w = TAU * hz;
             let expected = C::new(0.0, w).powu(power as u32) / C::new(2e6 - 4.8 * w * w, 600.0 * w);
             let off = C::new(value.re, value.im) - expected;
-            assert!(off.norm() < 1e-12 * expected.norm(), "{quantity:?} at {hz} Hz: {value} {expected}");
+            agree::curve(format_args!("{quantity:?} at {hz} Hz"), off.norm(), expected.norm(), 1e-12);
         }
     }
 }
@@ -140,7 +142,7 @@ fn step_response_with_modal_damping() {
     });
     assert_eq!(report.end, End::Complete);
     // Integration error at most (ω h)⁴ = 3e-8.
-    assert!(worst < 1e-7 * 5e-5, "{worst}");
+    agree::curve("step response [m]", worst, 5e-5, 1e-7);
 }
 
 /// Negative stiffness, as of a magnetic pull: x = F/(m a²) (cosh at − 1) with a² = −k/m. K is indefinite, so the
@@ -162,7 +164,7 @@ fn growth_on_negative_stiffness() {
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
-    assert!(worst < 1e-9 * largest, "{worst} of {largest}");
+    agree::curve("growth on a negative stiffness [m]", worst, largest, 1e-9);
 }
 
 /// Jeffcott rotor with internal (rotating) damping: m z̈ + (c_e + c_i) ż + (k − jΩ c_i) z = F,
@@ -223,5 +225,5 @@ fn unstable_forward_whirl_due_to_internal_damping() {
     });
     assert_eq!(report.end, End::Complete);
     // Newmark period error (ω h)²/12 times 50 rad: 3e-5; rotary inertia of disc and shaft: 1e-6.
-    assert!(worst < 3e-4 * farthest, "{worst} of {farthest}");
+    agree::curve("unstable forward whirl [m]", worst, farthest, 3e-4);
 }

@@ -1,5 +1,6 @@
 //! Rigid rotor: rigid-body modes, free precession, two springs in closed form, unbalance response.
 
+use crate::agree;
 use rotordyn::analysis::{ModeKind, modal};
 use rotordyn::assembly::{Assembly, LinearSystem, rigid_body_modes};
 use rotordyn::model::{self, Model};
@@ -36,10 +37,15 @@ fn free_rotor_mass_matrix_and_six_rigid_body_modes() {
     for (i, expected) in [mass, mass, mass, diametral, diametral, polar].into_iter().enumerate() {
         for j in 0..6 {
             let expected = if i == j { expected } else { 0.0 };
-            assert!((assembly.mass.to_dense()[(i, j)] - expected).abs() < 1e-15 * mass);
+            agree::absolute(
+                format_args!("mass matrix [{i}][{j}]"),
+                assembly.mass.to_dense()[(i, j)],
+                expected,
+                1e-15 * mass,
+            );
         }
     }
-    assert!((assembly.polar_inertia - polar).abs() < 1e-18);
+    agree::absolute("polar inertia [kg m²]", assembly.polar_inertia, polar, 1e-18);
     let system = LinearSystem::new(&assembly, &[], 0.0).unwrap();
     assert_eq!(rigid_body_modes::rigid_body_modes_of(&assembly, &system).unwrap().len(), 6);
     // Displacements of the ends as a rigid body: u_x = x + (z - z_c) θ_y, u_y = y - (z - z_c) θ_x.
@@ -47,7 +53,12 @@ fn free_rotor_mass_matrix_and_six_rigid_body_modes() {
     for (node, arm) in [(0, -0.2), (1, 0.0), (2, 0.25)] {
         let expected = [1.0 + 0.02 * arm, 2.0 - 0.01 * arm, 3.0, 0.01, 0.02, 0.03];
         for (i, value) in expected.into_iter().enumerate() {
-            assert!((q[6 * node + i] - value).abs() < 1e-15, "{node} {i}");
+            agree::absolute(
+                format_args!("rigid-body motion of node {node}, {i}"),
+                q[6 * node + i],
+                value,
+                1e-15,
+            );
         }
     }
 }
@@ -61,7 +72,7 @@ fn free_precession() {
     let modes = modal::modes(&assembly, &system, 6).unwrap();
     let fastest = modes.iter().map(|m| m.eigenvalue.im.abs()).fold(0.0, f64::max);
     let expected = speed * INERTIA[1] / INERTIA[2];
-    assert!((fastest / expected - 1.0).abs() < 1e-9, "{fastest} {expected}");
+    agree::relative("rate of free precession [rad/s]", fastest, expected, 1e-9);
 }
 
 /// With r = u_x + j u_y and β = θ_y − j θ_x, a whirl e^{jωt} (ω < 0 backward) satisfies
@@ -103,7 +114,8 @@ station = "A"
             };
             let h = 1e-6 * w;
             let newton = value(w) / ((value(w + h) - value(w - h)) / (2.0 * h));
-            assert!((newton / w).abs() < 1e-8, "{speed} rad/s: {w} rad/s, error {newton}");
+            let what = format_args!("whirl frequency at {speed} rad/s, {:?} [rad/s]", mode.kind);
+            agree::relative(what, w, w - newton, 1e-8);
             assert!(mode.label.contains("rigid-body"), "{}", mode.label);
             found += 1;
         }
@@ -182,7 +194,7 @@ speeds = "500 rad/s"
 
     let linear = machine.unbalance(machine.model.studies.unbalance.as_ref().unwrap()).unwrap();
     let [re, im] = linear.channels[0].amplitude[0];
-    assert!((re.hypot(im) / expected - 1.0).abs() < 1e-10);
+    agree::relative("linear unbalance response [m]", re.hypot(im), expected, 1e-10);
 
     let study = machine.model.studies.run_up.clone().unwrap();
     let reduction = machine.reduce(&study).unwrap();
@@ -197,5 +209,5 @@ speeds = "500 rad/s"
     let late = &x[x.len() * 3 / 4..];
     // 20 revolutions: the RMS is independent of the start phase.
     let rms = (late.iter().map(|v| v * v).sum::<f64>() / late.len() as f64).sqrt();
-    assert!((rms * 2.0_f64.sqrt() / expected - 1.0).abs() < 2e-3, "{rms} {expected}");
+    agree::relative("unbalance response of a run [m]", rms * 2.0_f64.sqrt(), expected, 2e-3);
 }

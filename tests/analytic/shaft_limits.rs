@@ -1,6 +1,7 @@
 //! Shaft terms with closed-form limits: internal damping, angular acceleration, Euler buckling, rigid-body
 //! modes.
 
+use crate::agree;
 use crate::machine::{disc, element, shaft};
 use rotordyn::analysis::{campbell::campbell, modal, stability::thresholds};
 use rotordyn::assembly::{Assembly, LinearSystem, rigid_body_modes};
@@ -49,9 +50,7 @@ fn internal_damping_stability_threshold_of_jeffcott_rotor() {
     assert!(found[0].unstable_above);
     assert!(found[0].mode.whirl[4] > 0.999);
     // Terms left out by the formula are of the order of the damping squared.
-    let deviation = (found[0].speed / expected - 1.0).abs();
-    println!("threshold {:.3} rad/s, formula {expected:.3}, deviation {deviation:.1e}", found[0].speed);
-    assert!(deviation < 1e-4);
+    agree::relative("stability threshold [rad/s]", found[0].speed, expected, 1e-4);
 }
 
 /// Smooth bent shape of the shaft in planes x and y: displacement u, slope u′, curvature u″.
@@ -126,7 +125,7 @@ fn spin_up_terms_satisfy_moment_balance() {
         let got: f64 = force.iter().zip(reduced(&work)).map(|(f, w)| f * w).sum();
         errors.push((got / expected - 1.0).abs());
     }
-    println!("errors with 8, 16, 32 elements: {errors:?}");
+    agree::curve("moment of the spin-up terms, 32 elements", errors[2], 1.0, 1e-6);
     assert!(errors[2] < 1e-6 && errors[1] > 8.0 * errors[2]);
 }
 
@@ -147,7 +146,7 @@ fn euler_buckling_load() {
     let euler = std::f64::consts::PI.powi(2) * ei;
     // ω² falls linearly to zero at the critical force.
     let (free, half) = (lowest(0.0), lowest(0.5 * euler));
-    assert!((half / free - 0.5).abs() < 1e-4, "{}", half / free);
+    agree::absolute("ω² at half of the Euler load", half / free, 0.5, 1e-4);
     assert!(lowest(0.999 * euler) > 0.0 && lowest(1.001 * euler) < 0.0);
 }
 
@@ -182,6 +181,6 @@ fn modal_damping_ratios_are_reproduced() {
     for mode in &modes {
         let hz = mode.natural_omega() / std::f64::consts::TAU;
         let expected = 0.01 + 0.02 * ((hz - 100.0) / 400.0).clamp(0.0, 1.0);
-        assert!((mode.zeta() / expected - 1.0).abs() < 1e-6, "{hz} Hz: {} {expected}", mode.zeta());
+        agree::relative(format_args!("damping ratio at {hz} Hz"), mode.zeta(), expected, 1e-6);
     }
 }

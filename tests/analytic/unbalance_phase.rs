@@ -1,6 +1,7 @@
 //! Phase of the unbalance response (high spot and heavy spot): unbalances of different phase, at constant
 //! speed and in a run-up.
 
+use crate::agree;
 use nalgebra::{Complex, Matrix2, Vector2};
 use rotordyn::model::study::{Integrator, RunUpStudy, UnbalanceStudy};
 use rotordyn::model::{Options, load};
@@ -124,7 +125,7 @@ fn unbalance_response_phase_of_two_unbalances() {
             let [re, im] = channel.amplitude[0];
             let off = (C::new(re, im) - expected).norm();
             // Round-off of a small system.
-            assert!(off < 1e-12 * left.norm(), "{} at {speed}: {re} {im} {expected}", channel.probe.name);
+            agree::curve(format_args!("{} at {speed} rad/s", channel.probe.name), off, left.norm(), 1e-12);
         }
 
         for integrator in [Integrator::RungeKutta4, Integrator::Newmark] {
@@ -191,6 +192,6 @@ fn run_up_of_free_rotor_about_its_centre_of_mass() {
     assert_eq!(report.end, End::Complete);
     // Integration error (Ω h)⁴ at the maximum speed over 7 revolutions, a tenth of it from the angular
     // acceleration.
-    assert!(worst < 1e-7 * arm, "{worst} of {arm}");
+    agree::curve("unbalance response over time [m]", worst, arm, 1e-7);
     assert!(farthest > 1.99 * arm, "{farthest} of {arm}");
 }

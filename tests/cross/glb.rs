@@ -1,5 +1,6 @@
 //! The .glb export read back by an independent minimal reader of the glTF specification.
 
+use crate::agree;
 use rotordyn::geometry::BearingShapes;
 use rotordyn::geometry::scene_graph::Scene;
 use rotordyn::io::gltf::to_glb;
@@ -56,7 +57,12 @@ fn bearing_part_names_positions_and_meshes() {
     for (j, ball) in at.balls.iter().enumerate() {
         for k in 0..3 {
             // serde_json reads numbers to within one unit in the last place.
-            assert!((nodes[4 + j]["translation"][k].as_f64().unwrap() - ball[k]).abs() < 1e-17);
+            agree::absolute(
+                "position of a ball in glTF [m]",
+                nodes[4 + j]["translation"][k].as_f64().unwrap(),
+                ball[k],
+                1e-17,
+            );
         }
     }
 
@@ -77,7 +83,7 @@ fn bearing_part_names_positions_and_meshes() {
                 assert!(x >= accessor["min"][k].as_f64().unwrap() - 1e-9);
                 assert!(x <= accessor["max"][k].as_f64().unwrap() + 1e-9);
             }
-            assert!((at(&normals, i).norm() - 1.0).abs() < 1e-6);
+            agree::absolute("length of a normal in glTF", at(&normals, i).norm(), 1.0, 1e-6);
         }
         for triangle in indices.chunks(3) {
             let [a, b, c] = [0, 1, 2].map(|k| triangle[k] as usize);

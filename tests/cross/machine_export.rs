@@ -1,6 +1,7 @@
 //! Export of a whole machine for viewers: the overhung rig's main dimensions (reconstructed), in glTF and
 //! VTK.
 
+use crate::agree;
 use rotordyn::bearing::Bearing;
 use rotordyn::element::{Anchor, Disc, RigidBody, ShaftElement, ShearCoefficient};
 use rotordyn::geometry::mesh::Mesh;
@@ -92,11 +93,17 @@ fn gltf_contains_every_part() {
     let highest = |k: usize| {
         scene.meshes[node.mesh.unwrap()].mesh.positions.iter().map(|p| p[k]).fold(f64::MIN, f64::max)
     };
-    assert!((highest(0) - 0.06).abs() < 1e-12 && (highest(2) - 0.015).abs() < 1e-12);
+    agree::absolute("height of the machine along x [m]", highest(0), 0.06, 1e-12);
+    agree::absolute("height of the machine along z [m]", highest(2), 0.015, 1e-12);
     // The housing's box: a² = 6 I/m with all moments equal.
     let node = scene.nodes.iter().find(|n| n.name == "housing A").unwrap();
     let corner = scene.meshes[node.mesh.unwrap()].mesh.positions[0];
-    assert!((2.0 * corner[0].abs() - (6.0f64 * 3e-3 / 1.5).sqrt()).abs() < 1e-12);
+    agree::absolute(
+        "side of a body of given mass and inertia [m]",
+        2.0 * corner[0].abs(),
+        (6.0f64 * 3e-3 / 1.5).sqrt(),
+        1e-12,
+    );
 
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rig.glb");
@@ -206,7 +213,7 @@ fn shaft_is_one_closed_solid_of_its_volume() {
         + frustum(0.04, 0.04, 0.06);
     let bores = frustum(0.012, 0.012, 0.18) + frustum(0.02, 0.02, 0.06);
     let polygon = 96.0 / std::f64::consts::TAU * (std::f64::consts::TAU / 96.0).sin();
-    assert!((volume(mesh) / ((solid - bores) * polygon) - 1.0).abs() < 1e-9, "{}", volume(mesh));
+    agree::relative("volume of a part as meshed [m³]", volume(mesh), (solid - bores) * polygon, 1e-9);
 
     // Normals: smooth along the cone, whose elements have no seams; edges at steps.
     let radius = |p: Position| p[0].hypot(p[1]);
@@ -221,7 +228,10 @@ fn shaft_is_one_closed_solid_of_its_volume() {
     assert!(outside(0.12, 0.019).is_empty() && !outside(0.18, 0.025).is_empty());
     // At the step from 50 to 40 mm the corner has the normals of both faces.
     let step = outside(0.27, 0.025);
-    assert!(step.iter().any(|z| (z - 1.0).abs() < 1e-9) && step.iter().any(|z| z.abs() < 1e-9), "{step:?}");
+    for exact in [1.0, 0.0] {
+        let nearest = step.iter().copied().min_by(|a, b| (a - exact).abs().total_cmp(&(b - exact).abs()));
+        agree::absolute("axial part of a normal at a step", nearest.unwrap(), exact, 1e-9);
+    }
 
     // Rigid rotor, turned down to the bores of its bearings: one solid as well.
     let scene = Scene::of_machine(&rigid());
@@ -239,12 +249,19 @@ fn both_rows_of_a_pair_are_in_the_scene() {
     let node = |name: &str| scene.nodes.iter().find(|n| n.name == name).unwrap();
     let (pair, rows) = (node("front"), [node("row 1"), node("row 2")]);
     assert_eq!(pair.children.len(), 2);
-    assert!((rows[1].translation[2] - rows[0].translation[2] - 0.016).abs() < 1e-12);
+    let distance = rows[1].translation[2] - rows[0].translation[2];
+    agree::absolute("distance of the rows of a pair [m]", distance, 0.016, 1e-12);
     let balls = scene.nodes.iter().filter(|n| n.name.starts_with("ball ")).count();
     assert_eq!(balls % 2, 0);
     // Rows with opposite thrust: the outer rings' grooves are offset to opposite sides of the balls.
     let ball_z = |row: &Node| scene.nodes[row.children[3]].translation[2];
-    assert!((ball_z(rows[0]) + ball_z(rows[1])).abs() < 1e-12 && ball_z(rows[0]) != 0.0);
+    agree::absolute(
+        "balls of both rows about the middle of the pair [m]",
+        ball_z(rows[0]),
+        -ball_z(rows[1]),
+        1e-12,
+    );
+    assert!(ball_z(rows[0]) != 0.0);
 }
 
 #[test]
@@ -309,7 +326,10 @@ fn vtk_surfaces_move_as_rigid_bodies_with_their_nodes() {
         let mut q = vec![0.0; 6 * model.node_count()];
         q[6 * node + 1] = 1e-3;
         let balls = moved(&grid, &machine_fields(&grid, &q, &[]), Part::Ball);
-        assert!(balls.iter().all(|(_, u)| (u[1] - 0.5e-3).abs() < 1e-15) && balls.len() > 100);
+        assert!(balls.len() > 100);
+        for (_, u) in balls {
+            agree::absolute("balls move by half of 1 mm [m]", u[1], 0.5e-3, 1e-15);
+        }
     }
 }
 

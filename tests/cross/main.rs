@@ -1,5 +1,7 @@
 //! Cross-checks with independent readers and with the methods of other libraries (parry, rapier).
 
+#[path = "../common/agree.rs"]
+mod agree;
 #[path = "../../crates/rotordyn-bearing/tests/common/bearing.rs"]
 mod bearing;
 

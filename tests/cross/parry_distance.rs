@@ -3,6 +3,7 @@
 //! Where a ball's centre lies on the line through its groove centres, gap to inner race + gap to outer race
 //! = −δ, for any split of δ between the races.
 
+use crate::agree;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use rotordyn::bearing::{BallBearing, BallElement, Rotation};
 use rotordyn::geometry::{BearingShapes, Race};
@@ -85,8 +86,12 @@ fn gaps_sum_to_element_deflection() {
             }
         }
     }
-    println!("worst difference {worst:e} m");
-    assert!(worst < 1e-16, "{worst:e}");
+    agree::absolute(
+        "gaps of exact shapes and the approach of a ball: largest difference [m]",
+        worst,
+        0.0,
+        1e-16,
+    );
 }
 
 /// The ring moved and tilted as a rigid body: the element is linear in the displacement, so the difference is
@@ -134,5 +139,5 @@ fn ring_linearisation_error_is_second_order() {
     println!("{full:e} {half:e} ratio {}", full / half);
     let groove = 20e-6 + 1e-3 * shapes.inner.centre_radius;
     assert!(full < 4.0 * groove * groove / shapes.inner.centre_radius, "{full:e}");
-    assert!((full / half - 4.0).abs() < 0.2, "{full:e} {half:e}");
+    agree::absolute("order of the distance: error over half the step", full / half, 4.0, 0.2);
 }

@@ -1,5 +1,6 @@
 //! Distances of free balls by parry against their closed forms, and the pairs that rapier detects.
 
+use crate::agree;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
@@ -137,7 +138,9 @@ fn distances_of_parry_equal_the_closed_forms() {
     }
     assert_eq!(worst.len(), 9);
     for (name, [distance, normal, pairs]) in &worst {
-        assert!(*distance < 2e-17 && *normal < 1e-12 && *pairs > 100.0, "{name} {distance:e} {normal:e}");
+        assert!(*pairs > 100.0, "{name}: {pairs}");
+        agree::absolute(format_args!("{name}: distance, largest difference [m]"), *distance, 0.0, 2e-17);
+        agree::absolute(format_args!("{name}: normal, largest difference"), *normal, 0.0, 1e-12);
     }
 }
 
@@ -225,7 +228,8 @@ fn detected_pairs_are_those_of_the_closed_forms() {
                 let normal = (exact.approach.normal - found.approach.normal).norm();
                 let depth = exact.approach.depth - found.approach.depth;
                 // Bodies are stored as unit quaternions: an angle of 2e-16 at 20 mm.
-                assert!(depth.abs() < 5e-17 && normal < 1e-10, "{:?} {depth:e} {normal:e}", exact.parts);
+                agree::absolute("depth of an overlap, difference [m]", depth, 0.0, 5e-17);
+                agree::absolute("normal of an overlap, difference", normal, 0.0, 1e-10);
                 pairs += 1;
                 overlapping += usize::from(exact.approach.depth > 0.0);
             }
@@ -277,6 +281,8 @@ fn run_by_parry_equals_the_run_by_closed_forms() {
         let values = difference(&closed.values, &by_shapes.values);
         let losses = difference(&one.losses, &other.losses);
         println!("state {values:.1e}, losses {losses:.1e}");
-        assert!(values < 1e-9 && losses < 1e-9 && closed.values != by_shapes.values);
+        agree::curve("state after 2 ms, by closed forms and by shapes", values, 1.0, 1e-9);
+        agree::curve("losses after 2 ms, by closed forms and by shapes", losses, 1.0, 1e-9);
+        assert!(closed.values != by_shapes.values);
     }
 }

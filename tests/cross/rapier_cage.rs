@@ -1,5 +1,6 @@
 //! Free balls in rapier compared with the kinematic cage: speed ratio ½ (1 − D_w/D_pw) and even spacing.
 
+use crate::agree;
 use std::f64::consts::{PI, TAU};
 
 use rotordyn::bearing::{BallBearing, BallElement};
@@ -51,15 +52,16 @@ fn balls_without_cage_roll_at_kinematic_speed() {
     let ratios: Vec<f64> = (0..9).map(|j| free.orbital_speed(j) / expected).collect();
     println!("{ratios:?}");
     for ratio in &ratios {
-        assert!((ratio - 1.0).abs() < 5e-4, "{ratios:?}");
+        agree::absolute("cage speed of rigid bodies over the kinematic one", *ratio, 1.0, 5e-4);
     }
     let mean = ratios.iter().sum::<f64>() / 9.0;
-    assert!((mean - 1.0).abs() < 1e-4, "{mean}");
+    agree::absolute("cage speed of rigid bodies, mean", mean, 1.0, 1e-4);
     // Spaced by rolling alone: deviations are within the clearance that cage pockets would have.
     let first = free.ball_centre(0);
     let first = first.y.atan2(first.x);
     for j in 0..9 {
-        assert!(ahead(&free, j, first).abs() * 19.25e-3 < 81e-6, "{j}");
+        let off = ahead(&free, j, first) * 19.25e-3;
+        agree::absolute("ball ahead of its place by rolling alone [m]", off, 0.0, 81e-6);
     }
 }
 
@@ -93,10 +95,10 @@ fn free_cage_has_kinematic_speed_and_spacing() {
     let ratio = travelled / time / expected;
     let loaded_mean = loaded.iter().sum::<f64>() / loaded.len() as f64;
     println!("cage {ratio}, loaded balls {loaded_mean}, farthest {farthest:e} of {clearance:e} m");
-    assert!((ratio - 1.0).abs() < 2.0 * clearance / (radius * travelled), "{ratio}");
+    agree::absolute("cage travel over the kinematic one", ratio, 1.0, 2.0 * clearance / (radius * travelled));
     // Clearance and load move ball centres out by P_d/4 + δ_o = 4.6 um of 19.3 mm and inner contacts in by
     // P_d/4 + δ_i/2 = 3.5 um of 15.3 mm: 4.7e-4 slower; creep that drives the unloaded balls: 3e-4.
-    assert!((loaded_mean - 1.0 + 4.7e-4).abs() < 3e-4, "{loaded_mean}");
+    agree::absolute("cage speed under load, mean", loaded_mean, 1.0 - 4.7e-4, 3e-4);
     // The pocket wall deflects by a few micrometres under a driven ball.
     assert!(farthest < clearance + 5e-6, "{farthest:e}");
 }

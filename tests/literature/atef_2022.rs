@@ -4,6 +4,7 @@
 //!
 //! Axes: x and y are the paper's, z is along the shaft; angles from +x, where the load points.
 
+use crate::agree;
 use crate::ross::{number, numbers, read};
 use rotordyn::model::{self, Model, Options};
 use rotordyn::results::BearingPoint;
@@ -29,8 +30,7 @@ pub fn reference(id: &str) -> Value {
 
 #[track_caller]
 pub fn assert_within(what: &str, got: f64, expected: f64, relative: f64) {
-    let error = got / expected - 1.0;
-    assert!(error.abs() <= relative, "{what}: {got} instead of {expected} ({error:.1e})");
+    agree::relative(what, got, expected, relative);
 }
 
 /// The machine's bearing under the load of the variant's study.
@@ -102,7 +102,9 @@ fn centrifugal_force() {
     }
     assert_eq!(point.balls.len(), 9);
     let largest = loads(&point)[0];
-    assert!(sum.iter().all(|s| s.abs() < 1e-9 * largest), "{sum:?}");
+    for sum in sum {
+        agree::absolute("sum of the centrifugal forces [N]", sum, 0.0, 1e-9 * largest);
+    }
 }
 
 /// The DOFs are x and y of inner ring, outer ring and resonator.

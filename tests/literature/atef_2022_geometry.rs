@@ -3,6 +3,7 @@
 //!
 //! Axes: x and y are the paper's; angles from +x, where the load points and a defect starts.
 
+use crate::agree;
 use crate::bearing::rig_6205;
 use crate::ross::{number, numbers, read};
 use rotordyn::bearing::{BallBearing, Defect, DefectForm, Profile, Rotation, Shape, Surface};
@@ -86,10 +87,11 @@ fn delays_between_impulses() {
         for (delay, expected) in delays.iter().zip(numbers(&reference["value"])) {
             let off = (delay - expected).abs();
             // Stated to five digits; the printed tolerance is two of the paper's steps.
-            assert!(off < 1e-5 * expected && off < number(&reference["abs_tol"]), "{id}: {delay} {expected}");
+            agree::curve(format_args!("delay between impulses, {id} [ms]"), off, expected, 1e-5);
+            assert!(off < number(&reference["abs_tol"]), "{id}: {delay} {expected}");
         }
         let impulses = if inner { 162.186 } else { 107.364 } * 2.0 * 0.05;
-        assert!((entries.len() as f64 - impulses).abs() <= 1.0, "{id}: {}", entries.len());
+        agree::absolute(format_args!("{id}: impulses in 0.05 s"), entries.len() as f64, impulses, 1.0);
     }
 }
 
@@ -102,7 +104,7 @@ fn residence_time() {
         assert!(exits.len() >= 3);
         for (entry, exit) in entries.iter().zip(&exits) {
             let time = exit - entry;
-            assert!((time / expected - 1.0).abs() < 1e-4, "{on:?}: {time}");
+            agree::relative(format_args!("residence time, {on:?} race [s]"), time, expected, 1e-4);
         }
     }
 }
@@ -113,7 +115,7 @@ fn dent_angle_and_ball_depth() {
     let bearing = bearing(Surface::Outer, &[0.0]);
     let g = &bearing.geometry;
     let angle = bearing.imperfections.defects[0].angle(g).to_degrees();
-    assert!((angle / number(&row("A06")["value"]) - 1.0).abs() < 1e-5, "{angle}");
+    agree::relative("angle of a dent [deg]", angle, number(&row("A06")["value"]), 1e-5);
     for (width, expected) in [0.17e-3, 0.34e-3, 2.5e-3].into_iter().zip(numbers(&row("A07")["value"])) {
         let mut wide = bearing.clone();
         wide.imperfections.defects = vec![dent(Surface::Outer, 0.0, width)];
@@ -121,6 +123,11 @@ fn dent_angle_and_ball_depth() {
         let profile = Profile::new(g, &wide.imperfections, 0, 0.0, 0.0).unwrap();
         let depth =
             -profile.at_rotation(&Rotation { cage_angle: middle, ..Rotation::default() }).ball(0).total();
-        assert!((depth * 1e6 / expected - 1.0).abs() < 1e-5, "{depth}");
+        agree::relative(
+            format_args!("depth of a ball in an opening of {width} m [um]"),
+            depth * 1e6,
+            expected,
+            1e-5,
+        );
     }
 }

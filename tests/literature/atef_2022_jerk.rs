@@ -1,6 +1,7 @@
 //! Atef et al. 2022: impulses, and jumps of the jerk as balls enter and leave defects, on the machine of
 //! models/atef_2022.toml by the ids of tests/data/atef_2022.json.
 
+use crate::agree;
 use crate::atef_2022::{assert_within, reference};
 use crate::atef_2022_records::{BPFI, BPFO, Records, TWO_DENTS, simulate};
 use crate::ross::{number, numbers, read};
@@ -48,7 +49,7 @@ fn impulses_of_two_dents() {
         let counts: Vec<usize> = (0..100).map(window).collect();
         let mean = counts.iter().sum::<usize>() as f64 / 100.0;
         let expected = number(&reference(count));
-        assert!((mean - expected).abs() < 0.1, "{count}: {mean} instead of {expected}");
+        agree::absolute(format_args!("{count}: impulses in 0.1 s, mean"), mean, expected, 0.1);
         let whole = expected.floor() as usize;
         assert!(counts.iter().all(|n| *n == whole || *n == whole + 1), "{count}: {counts:?}");
         let gaps: Vec<f64> = times.windows(2).map(|w| 1e3 * (w[1] - w[0])).collect();
@@ -56,7 +57,7 @@ fn impulses_of_two_dents() {
             let near: Vec<f64> = gaps.iter().copied().filter(|g| (g - expected).abs() < 0.5).collect();
             let mean = near.iter().sum::<f64>() / near.len() as f64;
             assert!(near.len() + 2 >= times.len() / 2, "{delays}: {} of {}", near.len(), times.len());
-            assert!((mean - expected).abs() < 0.012, "{delays}: {mean} ms instead of {expected}");
+            agree::absolute(format_args!("{delays}: delay, mean [ms]"), mean, expected, 0.012);
         }
     }
 }
@@ -81,9 +82,9 @@ fn residence_over_a_dent() {
         let seconds = records.ring[0].len() as f64 / records.rate;
         assert!(got.len() as f64 >= 1.8 * seconds * BPFO, "{} passages", got.len());
         let mean = got.iter().sum::<f64>() / got.len() as f64;
-        assert!((mean - expected).abs() < mean_within, "{mean} us instead of {expected}");
+        agree::absolute("residence over a dent, mean [us]", mean, expected, mean_within);
         for one in &got {
-            assert!((one - 97.0).abs() < each_within, "{one} us");
+            agree::absolute("residence over a dent, each passage [us]", *one, 97.0, each_within);
         }
     }
 }
@@ -115,7 +116,7 @@ fn extrema_of_the_jerk_under_the_force_law() {
     assert!(spacings.len() >= 9, "{}", spacings.len());
     let mean = spacings.iter().sum::<f64>() / spacings.len() as f64;
     let expected = number(&reference("A11"));
-    assert!((mean - expected).abs() < 1.5, "{mean} us instead of {expected}");
+    agree::absolute("spacing of the extrema of jerk, mean [us]", mean, expected, 1.5);
 }
 
 /// A12: eq. 22 from entry to entry, from neighbours to nearly a ball spacing.
@@ -129,7 +130,7 @@ fn angle_between_two_defects() {
         assert_eq!(got.len(), 2, "{beta}: {got:?}");
         let of = |kind| got.iter().find(|d| d.kind == kind).unwrap().angle;
         let between = (of(DefectKind::Dent) - of(DefectKind::Bump)).to_degrees().rem_euclid(360.0);
-        assert!((between - beta).abs() < 0.03, "{between} deg instead of {beta}");
+        agree::absolute("angle between two defects [deg]", between, beta, 0.03);
     });
 }
 
@@ -149,8 +150,9 @@ fn four_six_and_eight_defects() {
                 let (kind, sign) =
                     if k % 2 == 0 { (DefectKind::Bump, 1.0) } else { (DefectKind::Dent, -1.0) };
                 assert!(defect.kind == kind && defect.jumps.iter().all(|j| j * sign > 0.0), "{defect:?}");
-                let angle = defect.angle.to_degrees() - 180.0 - 5.0 * k as f64;
-                assert!(angle.abs() < 0.05, "{variant}: {defect:?}");
+                let at = 180.0 + 5.0 * k as f64;
+                let what = format_args!("{variant}: angle of defect {k} [deg]");
+                agree::absolute(what, defect.angle.to_degrees(), at, 0.05);
             }
         },
     );
@@ -166,8 +168,8 @@ fn seven_random_defects() {
     assert_eq!(got.len(), rows.len(), "{got:?}");
     for (got, row) in got.iter().zip(rows) {
         let (angle, width) = (number(&row[0]), number(&row[1]));
-        assert!((got.angle.to_degrees() - angle).abs() < 0.05, "{row}: {got:?}");
-        assert!((got.width * OUTER - width).abs() < 0.011, "{row}: {got:?}");
+        agree::absolute("angle of a random defect [deg]", got.angle.to_degrees(), angle, 0.05);
+        agree::absolute("width of a random defect [mm]", got.width * OUTER, width, 0.011);
         assert_eq!(got.kind == DefectKind::Bump, row[2] == "bump", "{row}: {got:?}");
     }
 }

@@ -1,6 +1,7 @@
 //! Atef et al. 2022: spectral lines of two defects and of an inner-race defect, on the machine of
 //! models/atef_2022.toml by the ids of tests/data/atef_2022.json.
 
+use crate::agree;
 use crate::atef_2022_records::{BPFI, BPFO, Records, band_envelope, harmonics, lines, simulate};
 use rayon::prelude::*;
 use rotordyn::signal::envelope::envelope;
@@ -95,7 +96,7 @@ fn acceleration_of_two_dents_over_angle() {
     let wave: Vec<f64> = ANGLES.iter().map(|b| (std::f64::consts::TAU * b / 40.0).cos()).collect();
     let slope = product(&wave, &first) / product(&wave, &wave);
     let ratio = slope / (mean(&first) - slope * mean(&wave));
-    assert!((ratio - 0.656).abs() < 0.03, "b/a = {ratio}");
+    agree::absolute("b/a of equation 23", ratio, 0.656, 0.03);
     // Smallest at 10 and 30 deg, largest at both ends and at 20.
     let at = |angle: f64| second[ANGLES.iter().position(|a| *a == angle).unwrap()];
     assert!(at(10.0) < 0.1 * at(1.0) && at(30.0) < 0.1 * at(1.0), "{second:?}");
@@ -125,7 +126,7 @@ fn sidebands_of_an_inner_race_defect() {
     let got = simulate("loaded_inner_dent", &[], 0.25, 1.0);
     let envelope = envelope(&got.resonator).unwrap();
     let printed = 2.0 * BPFO / 9.0 - SHAFT;
-    assert!((printed + 6.09).abs() < 0.01);
+    agree::absolute("frequency by the printed sign [Hz]", printed, -6.09, 0.01);
     let at = [0.0, -SHAFT, SHAFT, -printed, printed].map(|by| BPFI + by);
     let found = lines(&envelope, got.rate, &at);
     let [carrier, below, above, others @ ..] = &found[..] else { panic!() };

@@ -3,6 +3,7 @@
 //!
 //! The reference's laws by their numbers: 0 is `force`, 1 `force_on_loaded`, 2 `undamped_displacement`.
 
+use crate::agree;
 use crate::atef_2022::{assert_within, model, reference};
 use crate::ross::{number, numbers};
 use rayon::prelude::*;
@@ -136,7 +137,7 @@ fn envelope_of_two_dents() {
     };
     for (n, expected) in numbers(&reference("A21")).iter().enumerate() {
         let ratio = peak((n + 1) as f64 * BPFO) / peak(2.0 * BPFO);
-        assert!((ratio - expected).abs() < 0.01, "harmonic {}: {ratio} instead of {expected}", n + 1);
+        agree::absolute(format_args!("envelope harmonic {} over the second", n + 1), ratio, *expected, 0.01);
     }
 }
 

@@ -1,6 +1,7 @@
 //! Bal 2022: contacts and films of the FAG 7206 compared with an independent program for the same model
 //! (tests/data/bal_2022.json; its `meta` states the formulas).
 
+use crate::agree;
 use crate::ross::{number, read};
 use rotordyn::contact::{BallContacts, ContactLaw, FilmFormula, HertzPair, Lubricant, Race};
 use rotordyn::element::Material;
@@ -24,8 +25,9 @@ fn entrainment(rpm: f64) -> f64 {
     0.25 * PITCH * rpm * std::f64::consts::PI / 30.0 * (1.0 - gamma * gamma)
 }
 
+#[track_caller]
 fn near(value: f64, reference: f64, tolerance: f64, what: &str) {
-    assert!((value / reference - 1.0).abs() < tolerance, "{what}: {value} instead of {reference}");
+    agree::relative(format_args!("{what}"), value, reference, tolerance);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //!
 //! All digits are reproduced with a contact angle of 40.018°, not with the stated 40°.
 
+use crate::agree;
 use rotordyn::bearing::Bearing;
 use rotordyn::model;
 
@@ -33,11 +34,18 @@ fn frequencies_of_table_a3() {
     for [rpm, cage, bsf, bpfo, bpfi] in TABLE {
         let turns = rpm.parse::<f64>().unwrap() / 60.0;
         // Its spin frequency, eq. A3, is D_pw/(2 D_w)(1 − γ²) times n/60.
-        for (order, printed) in
-            [(orders.ftf, cage), (orders.bsf, bsf), (orders.bpfo, bpfo), (orders.bpfi, bpfi)]
-        {
+        for (name, order, printed) in [
+            ("cage", orders.ftf, cage),
+            ("BSF", orders.bsf, bsf),
+            ("BPFO", orders.bpfo, bpfo),
+            ("BPFI", orders.bpfi, bpfi),
+        ] {
             let decimals = printed.split_once('.').map_or(0, |(_, d)| d.len());
             assert_eq!(format!("{:.decimals$}", order * turns), printed, "{rpm} rpm");
+            // Rounded as printed.
+            let half_digit = 0.5 * 0.1_f64.powi(decimals as i32) * (1.0 + 1e-9);
+            let theirs: f64 = printed.parse().unwrap();
+            agree::absolute(format_args!("{name} at {rpm} rpm [Hz]"), order * turns, theirs, half_digit);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Bal 2022: the machine of models/bal_2022.toml compared with the independent program of
 //! tests/data/bal_2022.json and with the natural frequencies printed in the paper.
 
+use crate::agree;
 use crate::ross::{number, read};
 use rotordyn::analysis::{ModeKind, modal};
 use rotordyn::assembly::LinearSystem;
@@ -56,7 +57,7 @@ fn states_under_gravity() {
             let (down, [y, x]) = radial_modes(&name, rpm);
             for (ours, key) in [(down, "gravity_x_m"), (y, "gravity_fx_Hz"), (x, "gravity_fy_Hz")] {
                 let theirs = number(&state[key]);
-                assert!((ours / theirs - 1.0).abs() < 1e-4, "{name} {key}: {ours} instead of {theirs}");
+                agree::relative(format_args!("{name} {key}"), ours, theirs, 1e-4);
             }
             compared += 1;
         }
@@ -71,6 +72,6 @@ fn states_under_gravity() {
 fn printed_frequencies() {
     for (variant, printed) in [("preload_50", 833.1), ("preload_150", 918.5)] {
         let (_, [hz, _]) = radial_modes(variant, 1400.0);
-        assert!((hz / printed - 1.0).abs() < 0.015, "{variant}: {hz} Hz instead of {printed}");
+        agree::relative(format_args!("{variant}: frequency [Hz]"), hz, printed, 0.015);
     }
 }

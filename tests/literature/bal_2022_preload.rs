@@ -4,6 +4,7 @@
 //! The centre of mass is midway between two equal, opposed bearings, so that gravity displaces the shaft
 //! radially only and each bearing carries half of it. The paper's x points down; here gravity acts along +x.
 
+use crate::agree;
 use crate::ross::{number, numbers, read};
 use rotordyn::bearing::{BallBearing, BallElement, BallGeometry, BallInertia, Cage, Fit, Preload, Rotation};
 use rotordyn::contact::{ContactDamping, ContactLaw, Lubricant};
@@ -69,11 +70,9 @@ fn under_gravity(element: &BallElement, rotation: &Rotation) -> [f64; 6] {
     d
 }
 
+#[track_caller]
 fn near(value: f64, reference: f64, tolerance: f64, what: &str) {
-    assert!(
-        (value - reference).abs() <= tolerance * reference.abs(),
-        "{what}: {value} instead of {reference}"
-    );
+    agree::absolute(format_args!("{what}"), value, reference, tolerance * reference.abs());
 }
 
 /// All states of one speed and kind of preload.
@@ -93,7 +92,7 @@ fn check(set: &str, rpm: f64, contact: &ContactLaw, preload: impl Fn(f64) -> Pre
         near(ball.deflection, value("delta_normal_m"), 1e-6, &what("approach"));
         near(ball.load, value("F_ball_N"), 1e-6, &what("ball load"));
         let angle = ball.contact_angle.to_degrees();
-        assert!((angle - value("alpha_deg")).abs() < 1e-6, "{}", what("angle"));
+        agree::absolute(format_args!("{}", what("angle")), angle, value("alpha_deg"), 1e-6);
         if !state["h_inner_m"].is_null() {
             near(ball.film[0], value("h_inner_m"), 1e-6, &what("inner film"));
             near(ball.film[1], value("h_outer_m"), 1e-6, &what("outer film"));
@@ -116,7 +115,12 @@ fn check(set: &str, rpm: f64, contact: &ContactLaw, preload: impl Fn(f64) -> Pre
         let most = balls.iter().fold(0.0, |m: f64, b| m.max(b.load));
         let least = balls.iter().fold(most, |m: f64, b| m.min(b.load));
         near(most, value("gravity_F_ball_max"), 1e-4, &what("largest ball load"));
-        assert!((least - value("gravity_F_ball_min")).abs() < 1e-4 * most, "{}", what("least ball load"));
+        agree::absolute(
+            format_args!("{}", what("least ball load")),
+            least,
+            value("gravity_F_ball_min"),
+            1e-4 * most,
+        );
     }
 }
 
@@ -152,7 +156,7 @@ fn matrices_at_150_newton() {
         for (a, (i, si)) in map.into_iter().enumerate() {
             for (b, (expected, (j, sj))) in numbers(&data[key][a]).into_iter().zip(map).enumerate() {
                 let size = (k[i][i] * k[j][j]).sqrt();
-                assert!((si * sj * k[i][j] - expected).abs() < 1e-8 * size, "{key} K[{a}][{b}] {expected}");
+                agree::absolute(format_args!("{key} K[{a}][{b}]"), si * sj * k[i][j], expected, 1e-8 * size);
             }
         }
     }

@@ -1,5 +1,6 @@
 //! Records of the Case Western Reserve University Bearing Data Center: the damaged race is diagnosed.
 
+use crate::agree;
 use rotordyn::io::measured;
 use rotordyn::results::BearingWithOrders;
 use rotordyn::signal::bearing_lines::BearingPart;
@@ -65,16 +66,23 @@ fn faults_of_inner_and_outer_race() {
                 if place > 0 {
                     continue;
                 }
-                assert!((found.statistics.rms - rms).abs() < 5e-6, "{file}");
-                assert!((found.statistics.kurtosis.unwrap() - kurtosis).abs() < 5e-4, "{file}");
+                agree::absolute(format_args!("{file}: RMS"), found.statistics.rms, rms, 5e-6);
+                agree::absolute(
+                    format_args!("{file}: kurtosis"),
+                    found.statistics.kurtosis.unwrap(),
+                    kurtosis,
+                    5e-4,
+                );
                 // The faults are plain to see in these records.
                 assert!(envelope.graded.unwrap().probability > 0.8, "{what}");
                 let strongest = lines.strongest_line().unwrap();
                 assert_eq!((strongest.part, strongest.modulation), (part, None), "{what}");
                 // Within 0.5 % of the catalogue.
-                assert!(
-                    (strongest.frequency / strongest.expected - 1.0).abs() < 5e-3,
-                    "{what} {strongest:?}"
+                agree::relative(
+                    format_args!("{what}: strongest line [Hz]"),
+                    strongest.frequency,
+                    strongest.expected,
+                    5e-3,
                 );
             }
         }

@@ -6,6 +6,7 @@
 //! axial free play A sin α₀ due to clearance, as ours do. Its ball forces act at half the pitch diameter, as in the
 //! standard's moment equation: with the circle of inner groove centres instead the tilts are 1 % smaller.
 
+use crate::agree;
 use crate::bearing::rig_6205;
 use rotordyn::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use rotordyn::analysis::equilibrium::CageTreatment;
@@ -66,9 +67,8 @@ fn displacements_of_the_six_cases() {
             ("psi_mrad", 1e3 * found[4].abs(), 1e-2),
         ] {
             if let Some(expected) = case[key].as_f64() {
-                let error = value / expected - 1.0;
-                println!("{case}: {key} {value:.4} for {expected}, {:.3} %", 100.0 * error);
-                assert!(error.abs() < tolerance, "{case}: {key} is {value}");
+                println!("{case}");
+                agree::relative(key, value, expected, tolerance);
                 compared += 1;
             }
         }
@@ -90,9 +90,9 @@ fn axial_free_play_under_vanishing_load() {
     let found = solver.solve(&condition, None).unwrap();
     let a: f64 = 0.05 * 11.5e-3;
     let free_play = a * (1.0 - 0.5 * 10e-6 / a).acos().sin();
-    assert!((free_play - 75.66e-6).abs() < 5e-9);
+    agree::absolute("axial play [m]", free_play, 75.66e-6, 5e-9);
     // (1e-9 N)^(2/3) over the contacts' stiffness is a tenth of a picometre.
-    assert!((found.displacement[2] - free_play).abs() < 1e-11, "{}", found.displacement[2] - free_play);
+    agree::absolute("displacement at the end of the play [m]", found.displacement[2], free_play, 1e-11);
 }
 
 /// Lives of a bearing at rest under F_x, F_z \[N\] and M_x \[N m\], without prescribed motions; ball 0 is on the x axis.
@@ -126,13 +126,18 @@ fn reference_lives_of_six_cases() {
         };
         let found = life(&ball, load);
         println!("{load:?}: {} for {expected}, by the mechanics {}", found.reference, found.by_ball_loads);
-        assert!((found.reference / expected - 1.0).abs() < 2e-3, "{load:?}: {found:?}");
+        agree::relative(format_args!("reference life at {load:?} N"), found.reference, expected, 2e-3);
         // The mechanics takes the arm to the groove centres, longer by r_i - D_w/2: as under a smaller moment.
         let arm = 1.0 + 2.0 * (0.52 - 0.5) * 11.5 / 43.5;
         let [f_x, f_z, m_x] = load;
         let by_arm = life(&ball, [f_x, f_z, m_x / arm]).reference;
         if f_x * f_z == 0.0 {
-            assert!((found.by_ball_loads / by_arm - 1.0).abs() < 1e-6, "{load:?}: {found:?} {by_arm}");
+            agree::relative(
+                format_args!("life by the ball loads at {load:?} N"),
+                found.by_ball_loads,
+                by_arm,
+                1e-6,
+            );
         }
         assert!(m_x == 0.0 || found.by_ball_loads > 1.02 * found.reference, "{found:?}");
     }
@@ -164,7 +169,7 @@ fn radial_load_thrust_and_moment() {
         for (value, expected) in values {
             println!("{value} for {expected}");
             // Rounding of the listed digits.
-            assert!((value / expected - 1.0).abs() < 5e-5, "{value} for {expected}");
+            agree::relative("reliability of the reference", value, expected, 5e-5);
         }
     }
 }
@@ -219,8 +224,8 @@ fn pure_moment_by_bisection() {
         &loads,
         rotordyn::contact::Race::Inner,
     );
-    assert!((found.reference / expected.life - 1.0).abs() < 1e-8, "{found:?} {expected:?}");
-    assert!((found.reference_load / expected.load - 1.0).abs() < 1e-8);
+    agree::relative("reference life", found.reference, expected.life, 1e-8);
+    agree::relative("reference load [N]", found.reference_load, expected.load, 1e-8);
 }
 
 /// Opposed pairs without preload under a radial load: the rows carry half each with ε = 0.5, the distribution on which C
@@ -252,11 +257,11 @@ fn opposed_pairs_under_radial_load() {
         let found = &single_bearings(&[("pair".into(), pair)], &study).unwrap()[0];
         let life = &found.point.life;
         assert_eq!(life.equivalent_load, 300.0);
-        assert!((life.basic - (found.rating.dynamic / 300.0).powi(3)).abs() < 1e-9 * life.basic);
-        assert!((life.static_safety - found.rating.static_rating / 300.0).abs() < 1e-9);
+        agree::absolute("basic life", life.basic, (found.rating.dynamic / 300.0).powi(3), 1e-9 * life.basic);
+        agree::absolute("static safety", life.static_safety, found.rating.static_rating / 300.0, 1e-9);
         println!("{degrees} deg: L_10r {} for L_10 {}", life.reference, life.basic);
         // The contact angle grows a little under load, 1 % in life at 40 deg.
-        assert!((life.reference / life.basic - 1.0).abs() < 0.015, "{life:?}");
+        agree::relative("reference life over basic life", life.reference, life.basic, 0.015);
     }
 }
 
@@ -290,7 +295,12 @@ fn ball_ratings_at_any_contact_angle() {
             let found = reference_life(&g, rating, &loads, &loads, Race::Inner);
             let ratio = found.life / basic_life(rating, 500.0);
             println!("{degrees} deg: L_10r/L_10 {ratio:.5}");
-            assert!((ratio - 1.0).abs() < 2e-3, "{degrees} deg: {ratio}");
+            agree::absolute(
+                format_args!("{degrees} deg: rating by the loads over the catalogue rating"),
+                ratio,
+                1.0,
+                2e-3,
+            );
             let gamma = 9.0 * angle.cos() / pitch;
             let by_theory = |sign: f64, osculation: f64| {
                 (2.0 * osculation / (2.0 * osculation - 1.0)).powf(0.41) * (1.0 - sign * gamma).powf(1.39)
@@ -305,8 +315,8 @@ fn ball_ratings_at_any_contact_angle() {
         for [inner, outer] in &constants {
             // ISO 281 tabulates f_c for like osculations of both races, ISO/TS 16281 takes their own: 0.8 %; the power 0.7
             // of cos α would be off by 8 % at 40 deg.
-            assert!((inner / constants[0][0] - 1.0).abs() < 1e-2, "{constants:?}");
-            assert!((outer / inner - 1.0).abs() < 5e-3, "{constants:?}");
+            agree::relative("constant of the inner race", *inner, constants[0][0], 1e-2);
+            agree::relative("constant of the outer race", *outer, *inner, 5e-3);
         }
     }
 }

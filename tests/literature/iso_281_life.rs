@@ -1,5 +1,6 @@
 //! Load ratings and lives compared with ISO 281 tables, catalogues and a commercial program for ISO/TS 16281.
 
+use crate::agree;
 use crate::bearing::{rig_6205, steel};
 use rotordyn::bearing::BallGeometry;
 use rotordyn::bearing::life::{
@@ -64,42 +65,59 @@ fn factor_f_c_of_table_2() {
         for grooves in [[0.52, 0.53], [0.505, 0.515]] {
             let g = bearing(1, 1.0, 1.0 / gamma, grooves, 0.0);
             let here = rating(&g).dynamic / 1.3;
-            assert!((here - factor).abs() < 0.11, "γ = {gamma}: {here} instead of {factor}");
+            agree::absolute(format_args!("f_c at γ = {gamma}"), here, factor, 0.11);
         }
     }
 }
 
 #[test]
 fn basic_life_and_life_modification_factor() {
-    assert!((basic_life(14e3, 1400.0) - 1000.0).abs() < 1e-9);
+    agree::absolute("basic life at a tenth of C", basic_life(14e3, 1400.0), 1000.0, 1e-9);
     assert!(basic_life(14e3, 0.0).is_infinite());
     // 1000 million revolutions at 1000 rpm.
-    assert!((hours(1000.0, 1000.0 * std::f64::consts::PI / 30.0) - 1e9 / 6e4).abs() < 1e-6);
+    agree::absolute(
+        "hours of 1000 million revolutions",
+        hours(1000.0, 1000.0 * std::f64::consts::PI / 30.0),
+        1e9 / 6e4,
+        1e-6,
+    );
     let rpm = |n: f64| n * std::f64::consts::PI / 30.0;
     // ν₁ = 4500/√(1500 · 50) mm²/s.
-    assert!((reference_viscosity(0.05, rpm(1500.0)) * 1e6 - 4500.0 / 75_000f64.sqrt()).abs() < 1e-9);
-    assert!(
-        (reference_viscosity(0.05, rpm(500.0)) * 1e6 - 45_000.0 * 500f64.powf(-0.83) / 50f64.sqrt()).abs()
-            < 1e-9
+    agree::absolute(
+        "reference viscosity at 1500 rpm [mm²/s]",
+        reference_viscosity(0.05, rpm(1500.0)) * 1e6,
+        4500.0 / 75_000f64.sqrt(),
+        1e-9,
+    );
+    agree::absolute(
+        "reference viscosity at 500 rpm [mm²/s]",
+        reference_viscosity(0.05, rpm(500.0)) * 1e6,
+        45_000.0 * 500f64.powf(-0.83) / 50f64.sqrt(),
+        1e-9,
     );
     let a = |kappa: f64, ratio: f64| life_modification(kappa, 1.0, ratio, 1.0).unwrap();
     // The branches are continuous, to the digits of their constants.
     for kappa in [0.4, 1.0] {
-        assert!((a(kappa - 1e-9, 0.5) / a(kappa + 1e-9, 0.5) - 1.0).abs() < 2e-3);
+        agree::relative("a_ISO is continuous in κ", a(kappa - 1e-9, 0.5), a(kappa + 1e-9, 0.5), 2e-3);
     }
     // Limits: 0.1 under severe contamination, at most 50, constant above κ = 4, undefined below κ = 0.1.
-    assert!((life_modification(2.0, 0.0, 500.0, 1000.0).unwrap() - 0.1).abs() < 1e-12);
+    agree::absolute(
+        "a_ISO without lubrication",
+        life_modification(2.0, 0.0, 500.0, 1000.0).unwrap(),
+        0.1,
+        1e-12,
+    );
     assert_eq!(a(4.0, 2.0), 50.0);
     assert_eq!(a(4.0, 0.2), a(9.0, 0.2));
     assert!(life_modification(0.09, 0.5, 500.0, 1000.0).is_none());
     assert!(life_modification(f64::NAN, 0.5, 500.0, 1000.0).is_none());
     // By hand: κ = 1, e_C C_u/P = 0.1: (2.5671 − 1.9987)^0.83 = 0.62567, times 0.46416 is 0.29041.
-    assert!((a(1.0, 0.1) - 0.1 * (1.0f64 - 0.29041).powf(-9.3)).abs() < 1e-3);
+    agree::absolute("a_ISO at κ = 1", a(1.0, 0.1), 0.1 * (1.0f64 - 0.29041).powf(-9.3), 1e-3);
     for (before, after) in [(0.1, 0.2), (0.5, 0.9), (1.0, 3.0)] {
         assert!(a(before, 0.3) < a(after, 0.3));
     }
     assert_eq!(reliability_factor(0.9), 1.0);
-    assert!((reliability_factor(0.99) - 0.25).abs() < 1e-12);
+    agree::absolute("reliability factor of 99 %", reliability_factor(0.99), 0.25, 1e-12);
 }
 
 #[test]
@@ -136,11 +154,11 @@ fn reference_lives_of_a_commercial_program() {
         let (loads, sum) = loads(radial, axial, clearance);
         // The rounded displacement gives the load to a few thousandths; the life is that of exactly 1000 N.
         let off = force[0].hypot(force[1]) / sum[0].hypot(sum[1]);
-        assert!((off - 1.0).abs() < 3e-3, "{sum:?}");
+        agree::absolute("load of the displacement over 1000 N", off, 1.0, 3e-3);
         let loads: Vec<f64> = loads.iter().map(|q| q * off).collect();
         let here = reference_life(&g, 23.4e3, &loads, &loads, Race::Inner);
-        assert!((here.life / life - 1.0).abs() < 2e-3, "{} instead of {life}", here.life);
-        assert!((here.load - 23.4e3 / here.life.cbrt()).abs() < 1e-9);
+        agree::relative("life in the example", here.life, life, 2e-3);
+        agree::absolute("load in the example [N]", here.load, 23.4e3 / here.life.cbrt(), 1e-9);
     }
 }
 
@@ -156,14 +174,14 @@ fn reference_life_and_basic_life() {
     let sum: f64 = (0..9).map(|j| rigid(j) * (std::f64::consts::TAU * (j as f64 + 0.1) / 9.0).cos()).sum();
     let under = |load: f64| -> Vec<f64> { shape.iter().map(|q| q * load / sum).collect() };
     let life = |load: f64| reference_life(&g, 14e3, &under(load), &under(load), Race::Inner).life;
-    assert!((life(1000.0) / basic_life(14e3, 1000.0) - 1.0).abs() < 0.05, "{}", life(1000.0));
+    agree::relative("reference life at 1 kN", life(1000.0), basic_life(14e3, 1000.0), 0.05);
     // L ~ P⁻³, and a rotating outer ring shortens the life of the stationary inner ring.
-    assert!((life(2000.0) / life(1000.0) - 0.125).abs() < 1e-12);
+    agree::absolute("life over load: third power", life(2000.0) / life(1000.0), 0.125, 1e-12);
     let outer = reference_life(&g, 14e3, &under(1000.0), &under(1000.0), Race::Outer);
     assert!(outer.life < life(1000.0));
     assert!(reference_life(&g, 14e3, &[0.0; 9], &[0.0; 9], Race::Inner).life.is_infinite());
     // The life of two equal rows is 2^-0.9 of that of one.
-    assert!((combined_life(&[100.0, 100.0]) - 100.0 * 2f64.powf(-0.9)).abs() < 1e-10);
+    agree::absolute("life of two bearings", combined_life(&[100.0, 100.0]), 100.0 * 2f64.powf(-0.9), 1e-10);
 }
 
 /// L_nmr of a 6205 with the ratings of a catalogue, C 14.0 kN and C_u 335 N, under 1400 N at 6000 rpm in ISO VG 68 at 60 degC:
@@ -183,6 +201,6 @@ fn modified_life_of_a_6205() {
     let share = (0.5 * 335.0 / life.reference_load).cbrt();
     let stress = 1.0 - (2.5671 - 1.9987 * kappa.powf(-0.071739)).powf(0.83) * share;
     let by_hand = 0.1 * stress.powf(-9.3) * (14e3 / life.reference_load).powi(3);
-    assert!((life.modified / by_hand - 1.0).abs() < 1e-9);
-    assert!((life.modified / 6111.0 - 1.0).abs() < 2e-3, "{}", life.modified);
+    agree::relative("modified life", life.modified, by_hand, 1e-9);
+    agree::relative("modified life, printed", life.modified, 6111.0, 2e-3);
 }

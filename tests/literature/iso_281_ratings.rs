@@ -1,5 +1,6 @@
 //! Load ratings and equivalent loads compared with ISO 281, ISO 76, the theory behind their tables, and catalogues.
 
+use crate::agree;
 use crate::bearing::{rig_6205, steel};
 use crate::iso_281_life::{bearing, rating};
 use rotordyn::bearing::rating::{
@@ -24,19 +25,23 @@ fn shipped(designation: &str) -> BallGeometry {
 #[test]
 fn catalogue_ratings() {
     let here = rating(&shipped("6205"));
-    assert!((here.dynamic / 14.0e3 - 1.0).abs() < 0.01, "{here:?}");
-    assert!((here.static_rating / 7.8e3 - 1.0).abs() < 0.03, "{here:?}");
-    assert!((here.fatigue / (7.8e3 / 22.0) - 1.0).abs() < 0.03, "{here:?}");
+    agree::relative("6205: C [N]", here.dynamic, 14.0e3, 0.01);
+    agree::relative("6205: C₀ [N]", here.static_rating, 7.8e3, 0.03);
+    agree::relative("6205: fatigue load limit [N]", here.fatigue, 7.8e3 / 22.0, 0.03);
     let angular = rating(&shipped("7206-B-XL"));
-    assert!((angular.dynamic / 20.5e3 - 1.0).abs() < 0.01, "{angular:?}");
+    agree::relative("angular contact bearing: C [N]", angular.dynamic, 20.5e3, 0.01);
     // Balls above 25.4 mm have another exponent.
     let big = |mm: f64| rating(&bearing(9, mm, 5.0 * mm, [0.52, 0.52], 0.0)).dynamic;
-    assert!(
-        (big(25.401) / big(25.4) - 1.0).abs() < 2e-3 && big(30.0) < big(25.4) * (30.0 / 25.4f64).powf(1.8)
-    );
+    agree::relative("C is continuous in the ball diameter at 25.4 mm", big(25.401), big(25.4), 2e-3);
+    assert!(big(30.0) < big(25.4) * (30.0 / 25.4f64).powf(1.8));
     // Above a pitch diameter of 100 mm: C_u = C_0/22 √(100/D_pw).
     let large = rating(&bearing(12, 30.0, 225.0, [0.52, 0.53], 0.0));
-    assert!((large.fatigue * 22.0 / large.static_rating - 1.0 / 1.5).abs() < 1e-12);
+    agree::absolute(
+        "fatigue load limit of a large bearing over C₀/22",
+        large.fatigue * 22.0 / large.static_rating,
+        1.0 / 1.5,
+        1e-12,
+    );
 }
 
 /// f_0 of ISO 76 table 1 over γ = D_w cos α/D_pw in steps of 0.01 from 0.01, for the standard's grooves and for closer ones.
@@ -54,7 +59,7 @@ fn factor_f_0_of_table_1() {
             for material in [steel(), other_steel.clone()] {
                 let g = bearing(9, 8.0, 8.0 / gamma, grooves, 0.0);
                 let here = static_factor(&g, &material, &material);
-                assert!((here - expected).abs() < 0.13, "γ = {gamma:.2}, {grooves:?}: {here} for {expected}");
+                agree::absolute(format_args!("f_c at γ = {gamma:.2}"), here, *expected, 0.13);
             }
         }
     }
@@ -84,7 +89,7 @@ fn wide_grooves_reduce_the_ratings() {
             HertzPair::new(g.ball_diameter, g.pitch_diameter, grooves, g.contact_angle, &steel(), &steel());
         let load = 5.0 * of([0.55, 0.56]).static_rating / (11.0 * g.contact_angle.cos());
         let stress = [Race::Inner, Race::Outer].map(|race| hertz.of(race).patch(load).maximum_pressure);
-        assert!((stress[0].max(stress[1]) / 4.2e9 - 1.0).abs() < 1e-9, "{stress:?}");
+        agree::relative("contact pressure under C₀ [Pa]", stress[0].max(stress[1]), 4.2e9, 1e-9);
     }
 }
 
@@ -96,7 +101,7 @@ fn static_rating_of_ceramic_balls() {
     let modulus = |m: &Material| (1.0 - m.poisson * m.poisson) / m.young;
     let stiffer = 2.0 * modulus(&steel()) / (modulus(&steel()) + modulus(&ceramic));
     let ratio = static_factor(&g, &ceramic, &steel()) / static_factor(&g, &steel(), &steel());
-    assert!((ratio - stiffer.powi(-2)).abs() < 1e-9, "{ratio} {stiffer}");
+    agree::absolute("static rating over stiffness of the material", ratio, stiffer.powi(-2), 1e-9);
 }
 
 /// Pairs: i^0.7 and i, and 0.90/0.95 for two radial contact rows that oppose each other.
@@ -107,11 +112,26 @@ fn ratings_of_pairs() {
         let single = rating(&g);
         let of = |a| LoadRating::new(&g, &steel(), &steel(), Some(a));
         let tandem = of(Arrangement::Tandem);
-        assert!((tandem.dynamic / single.dynamic - 2f64.powf(0.7)).abs() < 1e-12);
+        agree::absolute(
+            "C of a tandem pair over one row",
+            tandem.dynamic / single.dynamic,
+            2f64.powf(0.7),
+            1e-12,
+        );
         for arrangement in OPPOSED {
             let pair = of(arrangement);
-            assert!((pair.dynamic / tandem.dynamic - opposed).abs() < 1e-12, "{designation}");
-            assert!((pair.static_rating / single.static_rating - 2.0).abs() < 1e-12);
+            agree::absolute(
+                "C of an opposed pair over tandem",
+                pair.dynamic / tandem.dynamic,
+                opposed,
+                1e-12,
+            );
+            agree::absolute(
+                "C₀ of a pair over one row",
+                pair.static_rating / single.static_rating,
+                2.0,
+                1e-12,
+            );
         }
     }
 }
@@ -125,11 +145,21 @@ fn equivalent_load_of_table_3() {
     let deep = bearing(9, 10.0, 50.0, [0.52, 0.53], 0.0);
     // F_a/(Z D_w²) = 1.03 N/mm²: e = 0.28, X = 0.56, Y = 1.55.
     let axial = 1.03 * 900.0;
-    assert!((single(&deep, 1000.0, -axial).load - (560.0 + 1.55 * axial)).abs() < 1e-9);
+    agree::absolute(
+        "equivalent load of a deep groove bearing [N]",
+        single(&deep, 1000.0, -axial).load,
+        560.0 + 1.55 * axial,
+        1e-9,
+    );
     assert_eq!(single(&deep, axial / 0.279, axial).load, axial / 0.279);
-    assert!((single(&deep, 0.0, 1e5).load - 1e5).abs() < 1e-9);
+    agree::absolute("equivalent load, thrust alone [N]", single(&deep, 0.0, 1e5).load, 1e5, 1e-9);
     let angular = bearing(13, 9.528, 46.0, [0.52, 0.53], 40.0);
-    assert!((single(&angular, 1000.0, 2000.0).load - (350.0 + 1140.0)).abs() < 1e-6);
+    agree::absolute(
+        "equivalent load of an angular contact bearing [N]",
+        single(&angular, 1000.0, 2000.0).load,
+        350.0 + 1140.0,
+        1e-6,
+    );
     assert_eq!(single(&angular, 1000.0, 1100.0).load, 1000.0);
     // Beyond 45° the radial factors do not apply.
     assert!(single(&bearing(13, 9.5, 46.0, [0.52, 0.53], 60.0), 1.0, 1.0).load.is_nan());
@@ -149,12 +179,14 @@ fn factors_follow_their_derivation() {
             let axial = relative * 1200.0;
             let xi = if angle < 6.0 { 1.05 } else { 1.25 };
             let thrust = single(&g, 0.0, axial);
-            assert!((thrust.x - (1.0 - 0.4 * xi / eta)).abs() < 0.006, "{angle}: {thrust:?}");
+            agree::absolute(format_args!("X at {angle} deg"), thrust.x, 1.0 - 0.4 * xi / eta, 0.006);
             // Two decimals of Y and e.
             let rounding = |load: &EquivalentLoad| 0.006 + 0.005 / load.y + 0.005 / load.e;
-            assert!(
-                (thrust.y * thrust.e / (0.4 * xi / eta) - 1.0).abs() < rounding(&thrust),
-                "{angle}: {thrust:?}"
+            agree::relative(
+                format_args!("Y e at {angle} deg"),
+                thrust.y * thrust.e,
+                0.4 * xi / eta,
+                rounding(&thrust),
             );
             let tandem = equivalent_load(&g, Some(Arrangement::Tandem), 0.0, 2.0 * axial);
             assert_eq!((tandem.x, tandem.y), (thrust.x, thrust.y));
@@ -170,14 +202,16 @@ fn factors_follow_their_derivation() {
                 a
             });
             let x = 1.0 - 0.4 * 1.25 / eta;
-            assert!((high.x - 1.625 * x).abs() < 0.009, "{angle}: {high:?}");
+            agree::absolute(format_args!("X of a pair at {angle} deg"), high.x, 1.625 * x, 0.009);
             // Y, and α' with it, is the same at any ξ.
-            assert!((high.y / (1.625 * thrust.y) - 1.0).abs() < 0.02, "{angle}: {high:?} {thrust:?}");
+            agree::relative(format_args!("Y of a pair at {angle} deg"), high.y, 1.625 * thrust.y, 0.02);
             assert_eq!(low.x, 1.0);
             let continuous = high.y - (1.0 - high.x) / high.e;
-            assert!(
-                (low.y / continuous - 1.0).abs() < 3.0 * rounding(&high),
-                "{angle}: {low:?}, {continuous}"
+            agree::relative(
+                format_args!("Y of a pair below e at {angle} deg"),
+                low.y,
+                continuous,
+                3.0 * rounding(&high),
             );
         }
     }
@@ -188,9 +222,14 @@ fn factors_follow_their_derivation() {
 fn small_contact_angles_have_factors_of_their_own() {
     let of = |angle| bearing(16, 9.0, 58.0, [0.515, 0.525], angle);
     let axial = 0.345 * 16.0 * 81.0;
-    assert!((single(&of(5.0), 0.0, axial).y - 1.99).abs() < 1e-12);
-    assert!((single(&of(10.0), 0.0, axial).y - 1.71).abs() < 1e-12);
-    assert!((single(&of(12.5), 0.0, axial).y - 0.5 * (1.71 + 1.40)).abs() < 1e-12);
+    agree::absolute("Y at 5 deg", single(&of(5.0), 0.0, axial).y, 1.99, 1e-12);
+    agree::absolute("Y at 10 deg", single(&of(10.0), 0.0, axial).y, 1.71, 1e-12);
+    agree::absolute(
+        "Y at 12.5 deg, between the rows",
+        single(&of(12.5), 0.0, axial).y,
+        0.5 * (1.71 + 1.40),
+        1e-12,
+    );
     assert_eq!(single(&of(3.0), 0.0, axial), single(&of(0.0), 0.0, axial));
 }
 
@@ -201,18 +240,23 @@ fn static_equivalent_loads() {
         let g = bearing(12, 10.0, 60.0, [0.52, 0.53], angle);
         for arrangement in [None, Some(Arrangement::Tandem)] {
             let load = static_equivalent_load(&g, arrangement, 1000.0, -5000.0);
-            assert!((load - (500.0 + y * 5000.0)).abs() < 1e-9);
+            agree::absolute("equivalent load, tandem [N]", load, 500.0 + y * 5000.0, 1e-9);
             // Never below the radial load.
             assert_eq!(static_equivalent_load(&g, arrangement, 1000.0, 10.0), 1000.0);
         }
         for arrangement in OPPOSED {
             let load = static_equivalent_load(&g, Some(arrangement), 1000.0, 5000.0);
-            assert!((load - (1000.0 + 2.0 * y * 5000.0)).abs() < 1e-9);
+            agree::absolute("equivalent load, opposed pair [N]", load, 1000.0 + 2.0 * y * 5000.0, 1e-9);
         }
     }
     let deep = rig_6205().geometry;
     for arrangement in [None, Some(Arrangement::BackToBack)] {
-        assert!((static_equivalent_load(&deep, arrangement, 100.0, 500.0) - 310.0).abs() < 1e-9);
+        agree::absolute(
+            "static equivalent load [N]",
+            static_equivalent_load(&deep, arrangement, 100.0, 500.0),
+            310.0,
+            1e-9,
+        );
     }
 }
 
@@ -261,7 +305,12 @@ fn ratings_of_random_bearings() {
         let life = &found.point.life;
         let radial = force[0].hypot(force[1]);
         assert!(life.equivalent_load > 0.0 && life.static_load >= radial, "{k}: {life:?}");
-        assert!((life.static_safety * life.static_load / rating.static_rating - 1.0).abs() < 1e-12);
+        agree::relative(
+            "static safety times load [N]",
+            life.static_safety * life.static_load,
+            rating.static_rating,
+            1e-12,
+        );
         assert!(life.reference > 0.0 && life.reference.is_finite(), "{k}: {life:?}");
         assert!(life.by_ball_loads > 0.0 && life.by_ball_loads.is_finite(), "{k}: {life:?}");
         // P grows with the axial load.

@@ -1,5 +1,6 @@
 //! Grades of mineral oil compared with ISO 3448, ASTM D2270, typical data sheets and measured α.
 
+use crate::agree;
 use rotordyn::contact::Lubricant;
 
 const ZERO: f64 = 273.15;
@@ -18,7 +19,12 @@ fn viscosity_at_40_degrees_and_monotone_temperature_dependence() {
     let mut count = 0;
     for name in Lubricant::grades() {
         let number: f64 = name.strip_prefix("ISO VG ").unwrap().parse().unwrap();
-        assert!((kinematic(name, 40.0) / number - 1.0).abs() < 1e-12);
+        agree::relative(
+            format_args!("{name}: viscosity at 40 °C [mm²/s]"),
+            kinematic(name, 40.0),
+            number,
+            1e-12,
+        );
         let mut before = at(name, -10.0);
         for celsius in (-9..=130).map(f64::from) {
             let here = at(name, celsius);
@@ -46,7 +52,7 @@ fn viscosity_index_is_95() {
         assert!(range.contains(&y), "{name}: {y}");
         let value = |c: [f64; 3]| c[0] * y * y + c[1] * y + c[2];
         let index = 100.0 * (value(low) - u) / (value(low) - value(high));
-        assert!((index - 95.0).abs() < 0.3, "{name}: {index}");
+        agree::absolute(format_args!("{name}: viscosity index"), index, 95.0, 0.3);
     }
 }
 
@@ -61,7 +67,7 @@ fn typical_data_sheets_at_100_degrees() {
         ("ISO VG 220", 19.0),
     ] {
         let here = kinematic(name, 100.0);
-        assert!((here / sheet - 1.0).abs() < 0.03, "{name}: {here}");
+        agree::relative(format_args!("{name}: viscosity of the data sheet"), here, sheet, 0.03);
     }
 }
 

@@ -1,5 +1,7 @@
 //! Comparison with published values; the file name gives the source.
 
+#[path = "../common/agree.rs"]
+mod agree;
 #[path = "../../crates/rotordyn-bearing/tests/common/bearing.rs"]
 mod bearing;
 #[path = "../../crates/rotordyn-bearing/tests/common/ehl.rs"]

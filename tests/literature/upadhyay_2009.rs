@@ -1,6 +1,7 @@
 //! Upadhyay, Harsha & Jain 2009: the machine of models/upadhyay_2009.toml compared with the independent
 //! program of tests/data/upadhyay_2009.json and with the classes of motion in Table II.
 
+use crate::agree;
 use crate::ross::{number, read};
 use rotordyn::model::study::{EquilibriumStudy, Integrator, SectionTrigger, SteadyRunSettings};
 use rotordyn::model::{self, Options, SpeedProfile};
@@ -119,25 +120,29 @@ fn cage_and_ball_pass_frequencies_and_ball_mass() {
     let radial = &interface.element;
     let ball_mass = radial.internal().unwrap().masses()[0];
     let cage = radial.cage_ratio(1.0) * 5000.0 / 60.0;
-    let close = |ours: f64, theirs: f64, tolerance: f64| {
-        assert!((ours / theirs - 1.0).abs() < tolerance, "{ours} instead of {theirs}");
-    };
-    close(cage, number(&row(&reference, "U01")["value"]), 1e-4);
+    agree::relative("cage frequency [Hz]", cage, number(&row(&reference, "U01")["value"]), 1e-4);
     for (balls, theirs) in
         [6.0, 7.0, 8.0, 9.0, 13.0, 16.0].iter().zip(numbers(&row(&reference, "U02")["value"]))
     {
-        close(balls * cage, theirs, 1e-4);
+        agree::relative(
+            format_args!("ball-pass frequency of {balls} balls [Hz]"),
+            balls * cage,
+            theirs,
+            1e-4,
+        );
     }
     let ball = machine.model.bearings[0].bearing.ball().unwrap();
-    close(
+    agree::relative(
+        "ball spin frequency [Hz]",
         ball.geometry.characteristic_orders(0.0).bsf * 5000.0 / 60.0,
         number(&row(&reference, "U03")["value"]),
         1e-4,
     );
     let theirs = numbers(&row(&reference, "U04")["value"]);
-    close(ball_mass, theirs[0], 2e-3);
+    agree::relative("ball mass [kg]", ball_mass, theirs[0], 2e-3);
     let cage_speed = std::f64::consts::TAU * cage;
-    close(ball_mass * cage_speed * cage_speed * 0.5 * ball.geometry.pitch_diameter, theirs[1], 2e-3);
+    let force = ball_mass * cage_speed * cage_speed * 0.5 * ball.geometry.pitch_diameter;
+    agree::relative("centrifugal force of a ball [N]", force, theirs[1], 2e-3);
 }
 
 /// U05 and U06, of massless balls: by `model = "ball"`, and by this model with nearly massless balls, where
@@ -163,10 +168,10 @@ fn statics_with_massless_balls() {
             let still = EquilibriumStudy { speed: 0.0, cage_average: false };
             let massless = machine("massless", &place).equilibrium(&still).unwrap();
             let down = 1e6 * massless.bearings[0].displacement[1];
-            assert!((down - expected).abs() < 1e-3, "{balls} balls: {down} um instead of {expected}");
+            agree::absolute(format_args!("{balls} balls: deflection [um]"), down, expected, 1e-3);
             let radial = machine("balls_8", &[&place[..], &light[..]].concat()).equilibrium(&still).unwrap();
             let down = 1e6 * radial.bearings[0].displacement[1];
-            assert!((down - expected).abs() < 2.5e-3, "{balls} balls: {down} um instead of {expected}");
+            agree::absolute(format_args!("{balls} balls: deflection, printed [um]"), down, expected, 2.5e-3);
             if balls == 13 {
                 let name = if *offset == 0.0 { "bottom" } else { "straddle" };
                 let mut expected = numbers(&row(&reference, "U06")["value"][name]);
@@ -177,7 +182,12 @@ fn statics_with_massless_balls() {
                     // The same 1e-9 m on 3e6 N/m.
                     let tolerance = if std::ptr::eq(found, &massless) { 2e-3 } else { 6e-3 };
                     for (ours, theirs) in loads.iter().zip(&expected) {
-                        assert!((ours - theirs).abs() < tolerance, "{ours} N instead of {theirs}");
+                        agree::absolute(
+                            format_args!("{balls} balls, {name}: load [N]"),
+                            *ours,
+                            *theirs,
+                            tolerance,
+                        );
                     }
                 }
             }
@@ -271,11 +281,8 @@ fn spectral_lines_by_newmark_and_runge_kutta() {
             let highest = kutta[axis].iter().fold(0.0_f64, |m, v| m.max(*v));
             for (order, (ours, theirs)) in newmark[axis].iter().zip(&kutta[axis]).enumerate() {
                 let off = (ours - theirs).abs() / theirs.max(0.01 * highest);
-                println!(
-                    "{balls} balls, axis {axis}, line {}: {ours:.5e} {theirs:.5e} off {off:.1e}",
-                    order + 1
-                );
-                assert!(off < 2e-3, "{balls} balls, axis {axis}, line {}: {ours} {theirs}", order + 1);
+                let what = format_args!("{balls} balls, axis {axis}: line {}, two integrators", order + 1);
+                agree::curve(what, off, 1.0, 2e-3);
             }
         }
     }
@@ -336,7 +343,7 @@ fn largest_lyapunov_exponents() {
         match expected {
             None => assert!(found > 5.0, "6 balls: {found} 1/s"),
             Some(expected) => {
-                assert!((found / expected - 1.0).abs() < 0.3, "{balls} balls: {found} for {expected} 1/s")
+                agree::relative(format_args!("{balls} balls: growth rate [1/s]"), found, expected, 0.3)
             }
         }
     }
@@ -352,8 +359,7 @@ fn classes_of_motion_for_other_parameters() {
         println!("{balls} balls with {set:?}: {main:.4} ball pass on axis {axis}");
         (main, lines)
     };
-    let near =
-        |main: f64, class: f64| assert!((main / class - 1.0).abs() < 0.01, "{main} instead of {class}");
+    let near = |main: f64, class: f64| agree::relative("main frequency [Hz]", main, class, 0.01);
     let down = [("load.further.force", "0, -6, 0 N")];
     near(main(6, &down, 0).0, 1.0);
     near(main(7, &down, 0).0, 2.0 / 3.0);
@@ -391,9 +397,9 @@ fn off_size_balls() {
         let size = 1e6 * lines.at(0, lines.main(0));
         println!("{balls} balls, two off size: {main:.4} ball pass, {cage:.3} of the cage, {size:.3} um");
         if balls < 10 {
-            assert!((main / 0.5 - 1.0).abs() < 0.01, "{balls} balls: {main} ball pass");
+            agree::relative(format_args!("{balls} balls: main line over the ball pass"), main, 0.5, 0.01);
         } else {
-            assert!((cage - 4.0).abs() < 0.02, "{balls} balls: {cage} of the cage");
+            agree::absolute(format_args!("{balls} balls: line over the cage frequency"), cage, 4.0, 0.02);
             assert!((0.30..0.34).contains(&size), "{balls} balls: {size} um");
         }
     }

@@ -18,6 +18,7 @@
 //! radially, a sin α/(sin² α + ε cos² α) axially, with ε = (Q/|s|)/(dQ/dδ) = (2/3) δ/|s| the share of the
 //! load that rotates with the line of contact; a/cos α and a/sin α when δ is small.
 
+use crate::agree;
 use crate::bearing::rig_6205;
 use rotordyn::bearing::{BallElement, BallLoad, Cage, Rotation, Wave};
 use std::f64::consts::TAU;
@@ -121,12 +122,19 @@ fn waviness_orders_that_excite_radial_and_axial_vibration() {
             };
             match (line, &whirl[..]) {
                 (Some(expected), [(frequency, amplitude)]) => {
-                    assert!(
-                        (frequency - expected).abs() < 1e-9,
-                        "{name} {order}: {frequency} for {expected}"
+                    agree::absolute(
+                        format_args!("{name} waviness {order}: frequency"),
+                        *frequency,
+                        expected,
+                        1e-9,
                     );
                     // Waves of a thousandth of the approach.
-                    assert!((amplitude / amplitudes[0] - 1.0).abs() < 1e-3, "{name} {order}: {amplitude}");
+                    agree::relative(
+                        format_args!("{name} waviness {order}: amplitude"),
+                        *amplitude,
+                        amplitudes[0],
+                        1e-3,
+                    );
                     radial += 1;
                 }
                 (None, []) => {}
@@ -135,13 +143,18 @@ fn waviness_orders_that_excite_radial_and_axial_vibration() {
             match (near > 0 && off == 0, &thrust[..]) {
                 // A real signal has its line at both signs of frequency, half the amplitude each.
                 (true, [(low, _), (frequency, amplitude)]) => {
-                    assert!(
-                        (frequency - passing).abs() < 1e-9 && *low == -frequency,
-                        "{name} {order}: {thrust:?}"
+                    agree::absolute(
+                        format_args!("{name} waviness {order}: frequency of the thrust"),
+                        *frequency,
+                        passing,
+                        1e-9,
                     );
-                    assert!(
-                        (2.0 * amplitude / amplitudes[1] - 1.0).abs() < 1e-3,
-                        "{name} {order}: {amplitude}"
+                    assert!(*low == -frequency, "{name} {order}: {thrust:?}");
+                    agree::relative(
+                        format_args!("{name} waviness {order}: thrust amplitude"),
+                        2.0 * amplitude,
+                        amplitudes[1],
+                        1e-3,
                     );
                     axial += 1;
                 }

@@ -4,6 +4,7 @@
 //! The paper's (x, y) is radial and z axial, moments M_x = +r sin ψ F_z and M_y = −r cos ψ F_z: these axes.
 //! Reference figures in tests/data/zhang_2016.json come from an independent program for eq. 12-14.
 
+use crate::agree;
 use crate::ross::{number, numbers, read};
 use rotordyn::bearing::{
     BallBearing, BallElement, BallGeometry, BallInertia, Cage, Fit, Preload, Reaction, Rotation,
@@ -147,7 +148,12 @@ fn appendix_equals_the_tangent() {
             for a in 0..5 {
                 for b in 0..5 {
                     let off = k[a][b] - expected[a][b];
-                    assert!(off.abs() < 1e-12 * size(&k, a, b), "{name} K[{a}][{b}]: {off} of {}", k[a][b]);
+                    agree::curve(
+                        format_args!("{name} K[{a}][{b}]: deviation over size"),
+                        off.abs(),
+                        size(&k, a, b),
+                        1e-12,
+                    );
                 }
             }
         }
@@ -167,10 +173,15 @@ fn printed_rows_of_section_5() {
             let (d, r) = solve_equilibrium(&element, [2000.0, 0.0, 1500.0, 0.0, moment], 0.0, start);
             for a in 0..5 {
                 let scale = [q[0], q[0], q[2], q[4], q[4]][a];
-                assert!((d[a] - q[a]).abs() < 1e-9 * scale, "{name} {sign}: displacement {a}");
+                agree::absolute(format_args!("{name} {sign}: displacement {a}"), d[a], q[a], 1e-9 * scale);
                 for (b, k) in numbers(&reference["K"][a]).into_iter().enumerate() {
                     let off = r.stiffness[a][b] - k;
-                    assert!(off.abs() < 1e-9 * size(&r.stiffness, a, b), "{name} {sign} K[{a}][{b}] {k}");
+                    agree::curve(
+                        format_args!("{name} {sign} K[{a}][{b}]: deviation over size"),
+                        off.abs(),
+                        size(&r.stiffness, a, b),
+                        1e-9,
+                    );
                 }
             }
             rows += 1;
@@ -181,10 +192,10 @@ fn printed_rows_of_section_5() {
             let start = [delta * 1.001, 0.0, 0.0, 0.0, 0.0, 0.0];
             let force = load.parse().unwrap();
             let (d, r) = solve_equilibrium(&element, [force, 0.0, 0.0, 0.0, 0.0], 0.0, start);
-            assert!((d[0] / delta - 1.0).abs() < 1e-9, "{name} {load}: {}", d[0]);
+            agree::relative(format_args!("{name} {load} N: displacement [m]"), d[0], delta, 1e-9);
             for a in 0..2 {
                 let k = number(&reference["K"][a][a]);
-                assert!((r.stiffness[a][a] / k - 1.0).abs() < 1e-9, "{name} {load} K[{a}][{a}]");
+                agree::relative(format_args!("{name} {load} N: K[{a}][{a}]"), r.stiffness[a][a], k, 1e-9);
             }
             rows += 1;
         }
@@ -208,7 +219,12 @@ fn percentages_of_section_5_1() {
         for (speed, percent) in percent.into_iter().enumerate() {
             let (dry, wet) = (displacement(speed, force, start), displacement(speed + 2, force, start));
             let found = 100.0 * (dry - wet) / dry;
-            assert!((found - percent).abs() < 0.15, "{force} N: {found} instead of {percent}");
+            agree::absolute(
+                format_args!("{force} N: less displacement by the film, speed {speed} [%]"),
+                found,
+                percent,
+                0.15,
+            );
         }
     }
 }
@@ -228,7 +244,7 @@ fn stiffness_over_the_cage_angle() {
             let k = &r.stiffness;
             let found = [k[0][0], k[1][1], k[2][2], k[3][3], k[4][4], k[0][2], k[0][4], k[1][3], k[2][4]];
             for (found, expected) in found.into_iter().zip(&row[6..]) {
-                assert!((found / expected - 1.0).abs() < 1e-8, "{name} at {}: {found} {expected}", row[0]);
+                agree::relative(format_args!("{name} at {}", row[0]), found, *expected, 1e-8);
             }
         }
     }

@@ -5,6 +5,7 @@
 //! cos ψ, as ours. Geometry: A₀ = 1.36 mm, moment arm 33.18 mm, radial clearance 6 µm taken once from the
 //! radial distance of the groove centres (P_d = 12 µm), eight balls, the first on the x axis.
 
+use crate::agree;
 use crate::bearing::rig_6205;
 use rotordyn::analysis::bearing_stiffness::{BearingEquilibrium, BearingSolver, Condition};
 use rotordyn::analysis::equilibrium::CageTreatment;
@@ -79,11 +80,23 @@ fn radial_load_of_section_5_1() {
         for (force, case) in file["sec51"][row].as_object().unwrap() {
             let (solver, found) = loaded(row, [force.parse().unwrap(), 0.0, 0.0, 0.0, 0.0], 0.0);
             let expected = case["delta_bx"].as_f64().unwrap();
-            assert!((found.displacement[0] / expected - 1.0).abs() < 1e-9, "{row} {force}");
-            assert!(found.displacement[1..].iter().all(|d| d.abs() < 1e-15), "{:?}", found.displacement);
+            agree::relative(
+                format_args!("{row} {force} N: displacement [m]"),
+                found.displacement[0],
+                expected,
+                1e-9,
+            );
+            for d in &found.displacement[1..] {
+                agree::absolute(
+                    format_args!("{row} {force} N: displacement across the load"),
+                    *d,
+                    0.0,
+                    1e-15,
+                );
+            }
             same_matrix(&found.stiffness, &case["K"], 1e-9, &format!("{row} {force}"));
             for (ball, load) in solver.ball_loads(&found).iter().zip(numbers(&case["Q"])) {
-                assert!((ball.load - load).abs() < 1e-6, "{row} {force}: {} for {load}", ball.load);
+                agree::absolute(format_args!("{row} {force} N: ball load [N]"), ball.load, load, 1e-6);
             }
         }
     }
@@ -97,14 +110,16 @@ fn combined_load_of_section_5_2() {
             let case = &file["sec52"][format!("{row}|My={}4", if moment > 0.0 { "+" } else { "-" })];
             let (solver, found) = loaded(row, [2000.0, 0.0, 1500.0, 0.0, moment], 0.0);
             for (d, expected) in found.displacement.iter().zip(numbers(&case["q"])) {
-                assert!(
-                    (d - expected).abs() <= 1e-9 * expected.abs() + 1e-15,
-                    "{row} {moment}: {d} for {expected}"
+                agree::absolute(
+                    format_args!("{row} {moment} N m: displacement"),
+                    *d,
+                    expected,
+                    1e-9 * expected.abs() + 1e-15,
                 );
             }
             same_matrix(&found.stiffness, &case["K"], 1e-9, &format!("{row} {moment}"));
             for (ball, angle) in solver.ball_loads(&found).iter().zip(numbers(&case["alpha_deg"])) {
-                assert!((ball.contact_angle.to_degrees() - angle).abs() < 1e-7);
+                agree::absolute("contact angle [deg]", ball.contact_angle.to_degrees(), angle, 1e-7);
             }
         }
     }
@@ -122,16 +137,22 @@ fn orbital_scan_of_section_5_2() {
                 loaded(row, [2000.0, 0.0, 1500.0, 0.0, 4.0], line[0] * std::f64::consts::TAU / 8.0);
             for (d, expected) in found.displacement.iter().zip(&line[1..6]) {
                 // dy and βx pass through zero
-                assert!(
-                    (d - expected).abs() < 1e-9 * expected.abs() + 1e-14,
-                    "{row} {}: {d} {expected}",
-                    line[0]
+                agree::absolute(
+                    format_args!("{row} {}: displacement", line[0]),
+                    *d,
+                    *expected,
+                    1e-9 * expected.abs() + 1e-14,
                 );
             }
             for ([a, b], expected) in ENTRIES.into_iter().zip(&line[6..]) {
                 let k = &found.stiffness;
                 let size = (k[a][a] * k[b][b]).sqrt();
-                assert!((k[a][b] - expected).abs() < 1e-9 * size, "{row} {}: K[{a}][{b}]", line[0]);
+                agree::absolute(
+                    format_args!("{row} {}: K[{a}][{b}]", line[0]),
+                    k[a][b],
+                    *expected,
+                    1e-9 * size,
+                );
             }
         }
     }
@@ -148,10 +169,15 @@ fn percentages_of_section_5_1() {
         let (_, dry) = loaded(&format!("dry{speed}"), radial, 0.0);
         let (_, ehl) = loaded(&format!("ehl{speed}"), radial, 0.0);
         let less = 100.0 * (1.0 - ehl.displacement[0] / dry.displacement[0]);
-        assert!((less - paper).abs() < 0.15, "{force} N, {speed} m/s: {less:.3} % for {paper} %");
+        agree::absolute(
+            format_args!("{force} N, {speed} m/s: less displacement by the film [%]"),
+            less,
+            paper,
+            0.15,
+        );
         for k in 0..2 {
-            let change = dry.stiffness[k][k] / ehl.stiffness[k][k] - 1.0;
-            assert!(change.abs() < 0.01, "{change}");
+            let what = format_args!("{force} N, {speed} m/s: stiffness {k} without the film [N/m]");
+            agree::relative(what, dry.stiffness[k][k], ehl.stiffness[k][k], 0.01);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Zhang 2016: the dry contacts of the bearing and the power laws fitted to them, compared with an
 //! independent program (tests/data/zhang_2016.json).
 
+use crate::agree;
 use crate::ross::{number, numbers, read};
 use rotordyn::contact::{HertzPair, fit_power_law};
 use rotordyn::element::Material;
@@ -24,7 +25,7 @@ fn dry_contacts() {
     let checks =
         [(pair.inner.stiffness, "K_inner"), (pair.outer.stiffness, "K_outer"), (pair.stiffness, "K_total")];
     for (value, name) in checks {
-        assert!((value / number(&dry[name]) - 1.0).abs() < 1e-9, "{name}: {value}");
+        agree::relative(format_args!("{name}"), value, number(&dry[name]), 1e-9);
     }
     for (contact, name) in [(&pair.inner, "inner"), (&pair.outer, "outer")] {
         let (patch, reference) = (contact.patch(1000.0), &dry["hertz_at_1000N"][name]);
@@ -36,7 +37,7 @@ fn dry_contacts() {
             (contact.ratio, "k"),
         ];
         for (value, key) in checks {
-            assert!((value / number(&reference[key]) - 1.0).abs() < 1e-9, "{name} {key}: {value}");
+            agree::relative(format_args!("{name} {key}"), value, number(&reference[key]), 1e-9);
         }
     }
 }
@@ -52,12 +53,24 @@ fn fits_over_29_loads() {
         let fit = fit_power_law(&loads, &approaches).unwrap();
         // Two of the centrifugal forces, 38.6678 and 348.01 N, are rounded in the reference.
         let tight = if force.fract() == 0.0 { 1.0 } else { 1e3 };
-        assert!(
-            (fit.stiffness / number(&reference["K"]) - 1.0).abs() < 1e-8 * tight,
-            "{centrifugal}: {fit:?}"
+        agree::relative(
+            format_args!("fitted K, centrifugal force {centrifugal} N"),
+            fit.stiffness,
+            number(&reference["K"]),
+            1e-8 * tight,
         );
-        assert!((fit.exponent - number(&reference["n"])).abs() < 1e-9 * tight, "{centrifugal}: {fit:?}");
-        assert!((fit.offset - number(&reference["dQ"])).abs() < 1e-6 * tight, "{centrifugal}: {fit:?}");
+        agree::absolute(
+            format_args!("fitted exponent, centrifugal force {centrifugal} N"),
+            fit.exponent,
+            number(&reference["n"]),
+            1e-9 * tight,
+        );
+        agree::absolute(
+            format_args!("fitted offset, centrifugal force {centrifugal} N"),
+            fit.offset,
+            number(&reference["dQ"]),
+            1e-6 * tight,
+        );
         let worst = loads
             .iter()
             .zip(&approaches)
@@ -66,7 +79,12 @@ fn fits_over_29_loads() {
         assert!(worst < 1.001 * number(&reference["maxerrN"]) + 1e-6, "{centrifugal}: {worst}");
         for (load, d) in reference["delta_um"].as_object().unwrap() {
             let here = approach(&pair, load.parse().unwrap(), force);
-            assert!((here * 1e6 / number(d) - 1.0).abs() < 1e-9 * tight, "{centrifugal} at {load} N: {here}");
+            agree::relative(
+                format_args!("approach, centrifugal force {centrifugal} N [um]"),
+                here * 1e6,
+                number(d),
+                1e-9 * tight,
+            );
         }
     }
 }
@@ -80,7 +98,12 @@ fn printed_dry_rows_of_table_2() {
         let row = numbers(&data["table2"][name]);
         for load in [600.0, 1000.0, 1500.0, 2000.0] {
             let printed = ((load - row[2]) / row[0]).powf(1.0 / row[1]);
-            assert!((approach(&pair, load, force) / printed - 1.0).abs() < 3e-3, "{name} at {load} N");
+            agree::relative(
+                format_args!("{name} at {load} N: approach [m]"),
+                approach(&pair, load, force),
+                printed,
+                3e-3,
+            );
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Motion, sliding, friction torque and shoulder distance of balls against closed forms and brute force.
 
+use crate::agree;
 use crate::bearing::rig_6205;
 use rotordyn_bearing::contact::{ContactPatch, Race};
 use rotordyn_bearing::friction::{Lubrication, SLIDING_FRICTION, load_torque, spin_torque, viscous_torque};
@@ -49,8 +50,13 @@ fn radial_ball_rolls_without_spinning() {
     let speed = 314.0;
     let [motion] = ball_motions(&bearing, &[load(0.3, [100.0; 2], [0.0; 2])], speed)[..] else { panic!() };
     let gamma = 7.938 / 38.5;
-    assert!((motion.orbital_speed / (0.5 * (1.0 - gamma) * speed) - 1.0).abs() < 1e-14);
-    assert!((motion.ball_speed / (0.5 * (1.0 - gamma * gamma) / gamma * speed) - 1.0).abs() < 1e-14);
+    agree::relative("orbital speed [rad/s]", motion.orbital_speed, 0.5 * (1.0 - gamma) * speed, 1e-14);
+    agree::relative(
+        "ball speed [rad/s]",
+        motion.ball_speed,
+        0.5 * (1.0 - gamma * gamma) / gamma * speed,
+        1e-14,
+    );
     assert_eq!((motion.spin, motion.pitch_angle), ([0.0; 2], 0.0));
     assert!(motion.ball_velocity[0] < 0.0, "the ball turns against the shaft");
     // The curvature of the groove alone slides: largest at a quarter to a half of the ellipse.
@@ -92,20 +98,30 @@ fn contact_centres_do_not_slide() {
                 let turned = cross(spinning, arm);
                 let of_race = cross(race, point);
                 let sliding: [f64; 3] = std::array::from_fn(|n| orbit[n] + turned[n] - of_race[n]);
-                assert!(dot(sliding, sliding).sqrt() < 1e-12 * speed.abs(), "{sliding:?}");
+                agree::curve("sliding at the contact", dot(sliding, sliding).sqrt(), speed.abs(), 1e-12);
                 let relative: [f64; 3] = std::array::from_fn(|n| spinning[n] - race[n]);
                 let spin = dot(relative, normal);
-                assert!((spin - motion.spin[k]).abs() < 1e-10 * speed.abs(), "{spin} {:?}", motion.spin);
+                agree::absolute(
+                    format_args!("spin, contact {k} [rad/s]"),
+                    spin,
+                    motion.spin[k],
+                    1e-10 * speed.abs(),
+                );
                 let rolling = (dot(relative, relative) - spin * spin).sqrt();
-                assert!((rolling / motion.rolling[k].abs() - 1.0).abs() < 1e-10);
+                agree::relative(
+                    format_args!("rolling, contact {k} [rad/s]"),
+                    rolling,
+                    motion.rolling[k].abs(),
+                    1e-10,
+                );
             }
             let free = if control == Race::Outer { 1 } else { 0 };
-            assert!(motion.spin[free].abs() < 1e-10 * speed.abs(), "{:?}", motion.spin);
+            agree::curve("spin at the controlling race", motion.spin[free].abs(), speed.abs(), 1e-10);
             // Harris, Rolling Bearing Analysis, ch. 8: spin-to-roll ratio at the inner race.
             let gamma = g.ball_diameter / g.pitch_diameter;
             let [inner, pitch] = [angles[0].to_radians(), motion.pitch_angle];
             let published = (1.0 - gamma * inner.cos()) * (inner - pitch).tan() + gamma * inner.sin();
-            assert!((motion.spin_to_roll()[0] - published.abs()).abs() < 1e-10);
+            agree::absolute("spin-to-roll ratio", motion.spin_to_roll()[0], published.abs(), 1e-10);
         }
     }
 }
@@ -120,7 +136,7 @@ fn race_control_follows_the_criterion() {
     let [inner, outer] = equal.patches(&hertz);
     let expected =
         outer.semi_major * hertz.outer.integrals[1] / (inner.semi_major * hertz.inner.integrals[1]);
-    assert!((control_ratio(&hertz, &equal) / expected - 1.0).abs() < 1e-13);
+    agree::relative("ratio of race control", control_ratio(&hertz, &equal), expected, 1e-13);
     let heavy = load(0.0, [300.0, 900.0], [50.0, 20.0]);
     let light = load(0.0, [900.0, 300.0], [40.0; 2]);
     let controls = ball_motions(&bearing, &[heavy, light], 100.0);
@@ -130,14 +146,21 @@ fn race_control_follows_the_criterion() {
     );
     let power = (900.0f64 / 300.0).powf(4.0 / 3.0);
     let ratio = control_ratio(&hertz, &heavy) / control_ratio(&hertz, &equal);
-    assert!((ratio / (power * 30f64.to_radians().cos()) - 1.0).abs() < 1e-12);
+    agree::relative(
+        "ratio of race control over contact angle",
+        ratio,
+        power * 30f64.to_radians().cos(),
+        1e-12,
+    );
     // Both races turning together carry the ball along.
     let turned = rolling_speeds(0.2, [0.7, 0.6], pitch_angle(Race::Outer, 0.2, [0.7, 0.6]), [50.0; 2]);
-    assert!((turned[0] - 50.0).abs() < 1e-12 && turned[1].abs() < 1e-12);
+    agree::absolute("speed with both races turning [rad/s]", turned[0], 50.0, 1e-12);
+    agree::absolute("ball speed with both races turning [rad/s]", turned[1], 0.0, 1e-12);
     // No load: the ball goes along with the cage of the nominal contact angle.
     let [idle] = ball_motions(&bearing, &[load(0.0, [0.0, 5.0], [40.0; 2])], 100.0)[..] else { panic!() };
     let gamma = 12.7 / 70.0 * 40f64.to_radians().cos();
-    assert!((idle.orbital_speed - 50.0 * (1.0 - gamma)).abs() < 1e-9 && idle.control.is_none());
+    agree::absolute("orbital speed of an idle ball [rad/s]", idle.orbital_speed, 50.0 * (1.0 - gamma), 1e-9);
+    assert!(idle.control.is_none());
 }
 
 /// M_s = ∫ μ p r dA over the ellipse, by summation.
@@ -160,12 +183,18 @@ fn spin_moment_is_the_integral_of_friction() {
             }
         }
         let moment = patch.maximum_pressure * sum * a * b * (2.0 / n as f64).powi(2);
-        assert!((motion.spin_moment[k] / moment - 1.0).abs() < 1e-4, "{:?} {moment}", motion.spin_moment);
+        agree::relative(
+            format_args!("moment of spin friction, contact {k} [N m]"),
+            motion.spin_moment[k],
+            moment,
+            1e-4,
+        );
     }
     // The torque on the shaft supplies the power.
     let torque = spin_torque(&[motion; 3], 0.085, 500.0);
     let power: f64 = (0..2).map(|k| 0.085 * motion.spin_moment[k] * motion.spin[k].abs()).sum();
-    assert!((torque * 500.0 / (3.0 * power) - 1.0).abs() < 1e-12 && power > 0.0);
+    agree::relative("friction power [W]", torque * 500.0, 3.0 * power, 1e-12);
+    assert!(power > 0.0);
 }
 
 #[test]
@@ -173,17 +202,22 @@ fn largest_pressure_times_sliding_speed() {
     let circle = ContactPatch { semi_major: 1e-4, semi_minor: 1e-4, maximum_pressure: 1e9, deflection: 1e-6 };
     // p₀ √(1 − s²) ω a s is largest at s = 1/√2, which the rings miss by 1e-3 at most.
     let spinning = largest_pressure_velocity(&circle, 4e-3, 100.0, 0.0);
-    assert!((spinning / (0.5 * 1e9 * 100.0 * 1e-4) - 1.0).abs() < 1e-3, "{spinning}");
+    agree::relative("power of spin [W]", spinning, 0.5 * 1e9 * 100.0 * 1e-4, 1e-3);
     // Long ellipse, sliding by the curvature alone: along y the largest of √(1 − s²) |c² − s²|, steep between two rings.
     let long = ContactPatch { semi_major: 1e-3, semi_minor: 1e-4, ..circle };
     let rolling = largest_pressure_velocity(&long, 4e-3, 0.0, 1000.0);
     let c = 0.347_296_355_333_860_7f64;
     // Lines of pure rolling: the load within them is half of the load.
-    assert!((1.5 * (c - c.powi(3) / 3.0) - 0.5).abs() < 1e-12);
+    agree::absolute(
+        "lines of pure rolling: balance of Heathcote slip",
+        1.5 * (c - c.powi(3) / 3.0),
+        0.5,
+        1e-12,
+    );
     let s2 = (2.0 + c * c) / 3.0;
     let expected = 1e9 * 1000.0 * 1e-6 / (2.0 * 4e-3) * (1.0 - s2).sqrt() * (s2 - c * c);
-    assert!((rolling / expected - 1.0).abs() < 4e-3, "{rolling} {expected}");
-    assert!((deformed_radius(6e-3, 12e-3) - 6e-3).abs() < 1e-15, "a groove of the ball's radius stays");
+    agree::relative("rolling power by Heathcote slip [W]", rolling, expected, 4e-3);
+    agree::absolute("deformed radius of a groove of the ball [m]", deformed_radius(6e-3, 12e-3), 6e-3, 1e-15);
 }
 
 /// Orbital speeds 1 + e cos ψ: the ball leads by e sin ψ.
@@ -200,10 +234,12 @@ fn ball_advance_integrates_the_orbital_speed() {
         })
         .collect();
     for (ball, advance) in loads.iter().zip(ball_advance(&loads, &motions)) {
-        assert!((advance - 0.02 * ball.position.sin()).abs() < 2e-5, "{advance} at {}", ball.position);
+        agree::absolute("advance of a ball [rad]", advance, 0.02 * ball.position.sin(), 2e-5);
     }
     let alike = vec![BallMotion { orbital_speed: 40.0, ..BallMotion::default() }; n];
-    assert!(ball_advance(&loads, &alike).iter().all(|a| a.abs() < 1e-12));
+    for advance in ball_advance(&loads, &alike) {
+        agree::absolute("advance of a ball among equal ones [rad]", advance, 0.0, 1e-12);
+    }
 }
 
 #[test]
@@ -211,21 +247,31 @@ fn friction_torque_after_palmgren() {
     let g = rig_6205().geometry;
     // 1e-7 · 2 · (20 · 3000)^(2/3) · 38.5³ N mm, and 160e-7 · 2 · 38.5³ below ν n = 2000.
     let fast = viscous_torque(&g, 2.0, 20e-6, 3000.0 * TAU / 60.0);
-    assert!((fast / (2e-10 * 60000f64.powf(2.0 / 3.0) * 38.5f64.powi(3)) - 1.0).abs() < 1e-12);
-    assert!((fast / 17.49e-3 - 1.0).abs() < 1e-3, "{fast}");
+    agree::relative(
+        "Palmgren moment, fast [N mm]",
+        fast,
+        2e-10 * 60000f64.powf(2.0 / 3.0) * 38.5f64.powi(3),
+        1e-12,
+    );
+    agree::relative("Palmgren moment, fast, printed [N mm]", fast, 17.49e-3, 1e-3);
     let slow = viscous_torque(&g, 2.0, 20e-6, 50.0 * TAU / 60.0);
-    assert!((slow / (320e-10 * 38.5f64.powi(3)) - 1.0).abs() < 1e-12);
+    agree::relative("Palmgren moment, slow", slow, 320e-10 * 38.5f64.powi(3), 1e-12);
     assert_eq!(viscous_torque(&g, 2.0, 20e-6, 0.0), 0.0);
     // Radial load: f_1 F_r d_m; thrust: F_β = 3 F_a.
     let [radial, factor] = load_torque(&g, 7800.0, 780.0, 0.0);
-    assert!((factor / (5e-4 * 0.1f64.powf(0.55)) - 1.0).abs() < 1e-12);
-    assert!((radial / (5e-4 * 0.1f64.powf(0.55) * 780.0 * 38.5e-3) - 1.0).abs() < 1e-12);
+    agree::relative("Palmgren factor of load", factor, 5e-4 * 0.1f64.powf(0.55), 1e-12);
+    agree::relative("load moment, radial [N m]", radial, 5e-4 * 0.1f64.powf(0.55) * 780.0 * 38.5e-3, 1e-12);
     let [thrust, _] = load_torque(&g, 7800.0, 0.0, -780.0);
-    assert!((thrust / (5e-4 * 0.05f64.powf(0.55) * 3.0 * 780.0 * 38.5e-3) - 1.0).abs() < 1e-12);
+    agree::relative(
+        "load moment, thrust [N m]",
+        thrust,
+        5e-4 * 0.05f64.powf(0.55) * 3.0 * 780.0 * 38.5e-3,
+        1e-12,
+    );
     let g = angular().geometry;
     let [thrust, _] = load_torque(&g, 30e3, 0.0, 3000.0);
     let expected = 1e-3 * (0.26f64 * 0.1).powf(0.33) * 0.9 * 3000.0 / 40f64.to_radians().tan() * 70e-3;
-    assert!((thrust / expected - 1.0).abs() < 1e-9, "{thrust} {expected}");
+    agree::relative("load moment [N m]", thrust, expected, 1e-9);
     assert_eq!(load_torque(&g, 30e3, 0.0, 0.0), [0.0; 2]);
     // Table 14.3 of Harris: deep groove and angular contact.
     for (method, factors) in [
@@ -244,20 +290,30 @@ fn mounted_geometry_follows_clearance_and_fit() {
     let mut bearing = rig_6205();
     let distance: f64 = (0.515 + 0.525 - 1.0) * 7.938e-3;
     let free = mounted_geometry(&bearing, 0.0);
-    assert!((free.free_contact_angle - (1.0 - 10e-6 / (2.0 * distance)).acos()).abs() < 1e-12);
+    agree::absolute(
+        "free contact angle [rad]",
+        free.free_contact_angle,
+        (1.0 - 10e-6 / (2.0 * distance)).acos(),
+        1e-12,
+    );
     // Axial clearance from the triangle of the groove centres.
     let axial = 2.0 * (distance.powi(2) - (distance - 5e-6).powi(2)).sqrt();
-    assert!((free.axial_clearance / axial - 1.0).abs() < 1e-9);
+    agree::relative("axial clearance [m]", free.axial_clearance, axial, 1e-9);
     bearing.fit.shaft_interference = 8e-6;
     let fitted = mounted_geometry(&bearing, 0.0);
-    assert!((fitted.radial_clearance - (10e-6 + bearing.clearance_change(0.0))).abs() < 1e-15);
+    agree::absolute(
+        "clearance as mounted [m]",
+        fitted.radial_clearance,
+        10e-6 + bearing.clearance_change(0.0),
+        1e-15,
+    );
     assert!(fitted.free_contact_angle < free.free_contact_angle);
     bearing.fit.shaft_interference = 40e-6;
     let tight = mounted_geometry(&bearing, 0.0);
     assert!(tight.radial_clearance < 0.0);
     assert_eq!((tight.free_contact_angle, tight.axial_clearance), (0.0, 0.0));
     let nominal = mounted_geometry(&angular(), 0.0);
-    assert!((nominal.free_contact_angle - 40f64.to_radians()).abs() < 1e-12);
+    agree::absolute("nominal contact angle [rad]", nominal.free_contact_angle, 40f64.to_radians(), 1e-12);
 }
 
 /// Distance of the ellipse from the shoulder against points along the groove.
@@ -276,9 +332,9 @@ fn shoulder_margin_against_points_of_the_groove() {
             })
             .count();
         let share = beyond as f64 / f64::from(points);
-        assert!((found.fraction_beyond - share).abs() < 2e-4, "{found:?} {share}");
+        agree::absolute("share of the ellipse beyond the shoulder", found.fraction_beyond, share, 2e-4);
         let edge = f64::abs(angle) + semi_axis / radius;
-        assert!((found.arc - radius * (shoulder - edge)).abs() < 1e-15);
+        agree::absolute("arc to the shoulder [m]", found.arc, radius * (shoulder - edge), 1e-15);
         assert_eq!(found.arc < 0.0, found.fraction_beyond > 0.0);
     }
 }
@@ -289,14 +345,24 @@ fn shoulders_by_diameter_and_by_rule() {
     let g = bearing.geometry.clone();
     // Grooves of 38.5 ∓ 7.938 mm, opened by half of the clearance of 10 µm each.
     let [inner, outer] = [Race::Inner, Race::Outer].map(|race| g.groove_bottom_diameter(race));
-    assert!((inner - (38.5e-3 - 7.938e-3 - 5e-6)).abs() < 1e-9, "{inner}");
-    assert!((outer - (38.5e-3 + 7.938e-3 + 5e-6)).abs() < 1e-9, "{outer}");
-    assert!((shoulder_height(&bearing, Race::Inner) - 0.2 * 7.938e-3).abs() < 1e-15);
+    agree::absolute("diameter of the inner race [m]", inner, 38.5e-3 - 7.938e-3 - 5e-6, 1e-9);
+    agree::absolute("diameter of the outer race [m]", outer, 38.5e-3 + 7.938e-3 + 5e-6, 1e-9);
+    agree::absolute(
+        "shoulder height of a deep groove [m]",
+        shoulder_height(&bearing, Race::Inner),
+        0.2 * 7.938e-3,
+        1e-15,
+    );
     bearing.service.shoulder_diameters = [Some(33.5e-3), Some(43.9e-3)];
     for (race, height) in [(Race::Inner, 0.5 * (33.5e-3 - inner)), (Race::Outer, 0.5 * (outer - 43.9e-3))] {
-        assert!((shoulder_height(&bearing, race) - height).abs() < 1e-15);
+        agree::absolute("shoulder height [m]", shoulder_height(&bearing, race), height, 1e-15);
         let angle = shoulder_angle(&bearing, race);
-        assert!((g.groove_radius(race) * (1.0 - angle.cos()) - height).abs() < 1e-12);
+        agree::absolute(
+            "height at the shoulder angle [m]",
+            g.groove_radius(race) * (1.0 - angle.cos()),
+            height,
+            1e-12,
+        );
     }
     // The ellipse of a radial load lies in the middle; a thrust of 20 kN on a 6205 climbs onto the shoulder.
     let radial = shoulder_margin(&bearing, &load(0.0, [1500.0; 2], [0.0; 2]));

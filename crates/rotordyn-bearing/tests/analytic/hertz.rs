@@ -1,5 +1,6 @@
 //! Hertzian contact compared with closed forms and independent values for the rig's bearing.
 
+use crate::agree;
 use crate::bearing::{rig_6205, steel};
 use rotordyn_bearing::BallElement;
 use rotordyn_bearing::contact::EllipticContact;
@@ -11,13 +12,18 @@ fn sphere_on_flat_gives_circular_contact() {
     let contact = EllipticContact::new(1.0 / radius, 1.0 / radius, [&steel(), &steel()]);
     let modulus = 207e9 / (2.0 * (1.0 - 0.09));
     let exact = 4.0 / 3.0 * modulus * radius.sqrt();
-    assert!((contact.stiffness / exact - 1.0).abs() < 1e-13);
+    agree::relative("K of a sphere on a plane [N/m^1.5]", contact.stiffness, exact, 1e-13);
     // p0 = (6 Q E*^2 / (π³ R²))^(1/3), and p0 = 3Q/(2πa²) must agree with the patch.
     let patch = contact.patch(100.0);
     let pi = std::f64::consts::PI;
     let p0 = (6.0 * 100.0 * modulus * modulus / (pi.powi(3) * radius * radius)).cbrt();
-    assert!((patch.maximum_pressure / p0 - 1.0).abs() < 1e-13);
-    assert!((patch.semi_major.powi(2) / (radius * patch.deflection) - 1.0).abs() < 1e-13);
+    agree::relative("maximum pressure [Pa]", patch.maximum_pressure, p0, 1e-13);
+    agree::relative(
+        "square of the contact radius [m²]",
+        patch.semi_major.powi(2),
+        radius * patch.deflection,
+        1e-13,
+    );
 }
 
 #[test]
@@ -28,7 +34,12 @@ fn ellipse_ratio_satisfies_curvature_equation() {
         let (k2, [first, second]) = (c.ratio * c.ratio, c.integrals);
         let f = ((k2 + 1.0) * second - 2.0 * first) / ((k2 - 1.0) * second);
         // The equation is ill-conditioned towards the circle, where (κ² − 1) cancels.
-        assert!((f - c.curvature_difference).abs() < 1e-11, "across {across}: {f}");
+        agree::absolute(
+            format_args!("curvature difference across {across}"),
+            f,
+            c.curvature_difference,
+            1e-11,
+        );
         assert!(c.ratio > 1.0);
     }
 }
@@ -37,10 +48,12 @@ fn ellipse_ratio_satisfies_curvature_equation() {
 fn rig_contact_constants() {
     // Values of an independent program for the same geometry (tests/data/rig.json, bearing.catalogue).
     let pair = BallElement::new(&rig_6205()).contacts;
-    assert!((pair.inner.stiffness / 28162882888.95517 - 1.0).abs() < 1e-9);
-    assert!((pair.outer.stiffness / 25018667553.86848 - 1.0).abs() < 1e-9);
-    assert!((pair.stiffness / 9373862544.95941 - 1.0).abs() < 1e-9);
+    agree::relative("6205: K of the inner contact", pair.inner.stiffness, 28162882888.95517, 1e-9);
+    agree::relative("6205: K of the outer contact", pair.outer.stiffness, 25018667553.86848, 1e-9);
+    agree::relative("6205: K of both contacts", pair.stiffness, 9373862544.95941, 1e-9);
     let orders = rig_6205().geometry.characteristic_orders(0.0);
-    assert!((orders.bpfo - 3.5722).abs() < 5e-5 && (orders.bpfi - 5.4278).abs() < 5e-5);
-    assert!((orders.ftf - 0.3969).abs() < 5e-5 && (orders.bsf - 2.322).abs() < 5e-4);
+    agree::absolute("6205: BPFO [orders]", orders.bpfo, 3.5722, 5e-5);
+    agree::absolute("6205: BPFI [orders]", orders.bpfi, 5.4278, 5e-5);
+    agree::absolute("6205: FTF [orders]", orders.ftf, 0.3969, 5e-5);
+    agree::absolute("6205: BSF [orders]", orders.bsf, 2.322, 5e-4);
 }

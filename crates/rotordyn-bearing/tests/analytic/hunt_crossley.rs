@@ -1,5 +1,6 @@
 //! Contact damping compared with hand calculations and with the first integral of a rebounding mass.
 
+use crate::agree;
 use rotordyn_bearing::contact::{BallContacts, ContactDamping, ContactLaw, HertzPair, PowerLaw};
 
 use crate::bearing::rig_6205;
@@ -22,7 +23,7 @@ fn hunt_crossley_force_by_hand() {
     for (rate, load) in [(0.02, 80.48), (0.0, 80.0), (-0.02, 79.52), (-1.0, 56.0), (-4.0, 0.0)] {
         let found = damping.apply(&at, &elastic, 4e-6, rate).load;
         // Round-off of the power function.
-        assert!((found - load).abs() < 1e-11, "{rate} m/s: {found} N instead of {load} N");
+        agree::absolute(format_args!("force at {rate} m/s [N]"), found, load, 1e-11);
     }
 }
 
@@ -36,7 +37,7 @@ fn constant_damping_force_by_hand() {
     // 1e10 · (0.5e-6)^1.5 = 3.5355339 N at 0.5 um.
     for (approach, load) in [(4e-6, 86.0), (0.5e-6, 6.535_533_905_932_738)] {
         let found = damping.apply(&at, &at.series(approach), approach, 0.02).load;
-        assert!((found - load).abs() < 1e-11, "{approach} m: {found} N instead of {load} N");
+        agree::absolute(format_args!("force at {approach} m [N]"), found, load, 1e-11);
     }
 }
 
@@ -89,19 +90,17 @@ fn rebound_speed_and_maximum_approach_from_first_integral() {
         assert!(x <= 0.0, "still in contact at {x} m");
         // Discretisation error 1/2000^2.5, as δⁿ is not smooth where the contact begins and ends; the maximum
         // lies within half a step of a sample.
-        assert!(
-            (-v / rebound_speed - 1.0).abs() < 1e-6,
-            "χ {factor}: rebound speed {} instead of {rebound_speed}",
-            -v
-        );
-        assert!(
-            (largest_x / max_approach - 1.0).abs() < 1e-6,
-            "χ {factor}: {largest_x} instead of {max_approach}"
-        );
+        agree::relative(format_args!("χ {factor}: rebound speed [m/s]"), -v, rebound_speed, 1e-6);
+        agree::relative(format_args!("χ {factor}: largest approach [m]"), largest_x, max_approach, 1e-6);
         // Coefficient of restitution e = 1 − (2/3) χ v₀ + (4/9) (χ v₀)² − ... of Hunt & Crossley.
         let small = factor * speed;
         if small <= 0.1 {
-            assert!((-v / speed - (1.0 - 2.0 / 3.0 * small)).abs() < 0.5 * small * small, "{small}: {v}");
+            agree::absolute(
+                format_args!("coefficient of restitution at {small}"),
+                -v / speed,
+                1.0 - 2.0 / 3.0 * small,
+                0.5 * small * small,
+            );
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Ball bearing kinematics from the geometry: groove centre radius, entrainment speed, passage of defects.
 
+use crate::agree;
 use crate::bearing::rig_6205;
 use rotordyn_bearing::contact::{BallContacts, ContactLaw, Lubricant, Race};
 use rotordyn_bearing::{BallBearing, BallElement, Defect, DefectForm, Rotation, Shape, Surface};
@@ -10,10 +11,11 @@ use rotordyn_bearing::{BallBearing, BallElement, Defect, DefectForm, Rotation, S
 #[test]
 fn inner_groove_centre_radius() {
     let geometry = rig_6205().geometry;
-    assert!(
-        (geometry.inner_centre_radius() - 19.366_57e-3).abs() < 1e-12,
-        "{}",
-        geometry.inner_centre_radius()
+    agree::absolute(
+        "radius of the inner groove centres [m]",
+        geometry.inner_centre_radius(),
+        19.366_57e-3,
+        1e-12,
     );
 }
 
@@ -34,7 +36,7 @@ fn film_thickness_at_entrainment_speed() {
         // Cage speed of equal entrainment speed at both races.
         let cage = shaft * inner / (inner + outer);
         let speed = cage * outer;
-        assert!((speed / ((shaft - cage) * inner) - 1.0).abs() < 1e-14);
+        agree::relative("cage speed of equal entrainment [m/s]", speed, (shaft - cage) * inner, 1e-14);
         let contacts = BallContacts::new(bearing.hertz(), contact.clone());
         let element = BallElement::new(&bearing);
         let d = [12e-6, 0.0, if angle > 0.0 { 10e-6 } else { 0.0 }, 0.0, 0.0, 0.0];
@@ -44,11 +46,7 @@ fn film_thickness_at_entrainment_speed() {
             for (k, race) in [Race::Inner, Race::Outer].into_iter().enumerate() {
                 let expected = contacts.at_speed(speed).film(race, ball.load);
                 // Round-off of the power function.
-                assert!(
-                    (ball.film[k] / expected - 1.0).abs() < 1e-12,
-                    "{race:?}: {} {expected}",
-                    ball.film[k]
-                );
+                agree::relative(format_args!("film at the {race:?} race [m]"), ball.film[k], expected, 1e-12);
             }
             loaded += 1;
         }

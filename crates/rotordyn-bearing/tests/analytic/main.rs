@@ -1,5 +1,7 @@
 //! Closed forms of contacts and of the motion of balls.
 
+#[path = "../../../../tests/common/agree.rs"]
+mod agree;
 #[path = "../common/bearing.rs"]
 mod bearing;
 

@@ -2,6 +2,7 @@
 //! ball spin by raceway control, gyroscopic moment, the friction force that balances it, centrifugal force,
 //! and the ring reaction.
 
+use crate::agree;
 use crate::bearing::rig_6205;
 use nalgebra::Vector3;
 use rotordyn_bearing::contact::ContactDamping;
@@ -122,12 +123,8 @@ fn ball_loads_satisfy_newton_euler_equations() {
             // Friction exceeds 2 N; the residual is round-off of loads of 1e3 N through the contact angles.
             assert!(forces.friction.norm() > 2.0, "{}", forces.friction);
             let in_plane = forces.residual - V::new(0.0, forces.residual[1], 0.0);
-            assert!(
-                in_plane.norm() < 1e-9,
-                "{control:?} {thrust}: residual {} N of {}",
-                in_plane.norm(),
-                forces.centrifugal_force
-            );
+            let what = format_args!("{control:?} thrust {thrust}: force not balanced [N]");
+            agree::absolute(what, in_plane.norm(), 0.0, 1e-9);
         }
     });
 }
@@ -154,11 +151,11 @@ fn inner_ring_reaction_is_sum_of_contact_forces() {
         // Round-off of the sum of all loads, moments with an arm of 20 mm.
         for k in 0..3 {
             let off = (found[k] - force[k]).abs();
-            assert!(off < 1e-13 * size, "{control:?} {thrust} force {k}: {} {}", found[k], force[k]);
+            agree::curve(format_args!("{control:?} thrust {thrust}: force {k}"), off, size, 1e-13);
         }
         for k in 0..2 {
             let off = (found[3 + k] - moment[k]).abs();
-            assert!(off < 1e-14 * size, "{control:?} {thrust} moment {k}: {} {}", found[3 + k], moment[k]);
+            agree::curve(format_args!("{control:?} thrust {thrust}: moment {k}"), off, size, 1e-14);
         }
         // The line of action of the normal load passes through the groove centre, that of friction does not.
         assert_eq!(friction_moment > 5e-3, control == Control::Inner, "{friction_moment} N m");
