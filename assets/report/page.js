@@ -35,7 +35,7 @@ function modeTables(results) {
 }
 
 function staticFigure({ caption, svg }) {
-  const image = make("img", { alt: caption, src: `data:image/svg+xml;base64,${btoa(unescape(encodeURIComponent(svg)))}`, loading: "lazy" });
+  const image = make("img", { alt: caption, src: `data:image/svg+xml;base64,${btoa(unescape(encodeURIComponent(svg)))}` });
   return make("figure", { class: "chart static" }, image, make("figcaption", {}, caption));
 }
 
@@ -94,9 +94,7 @@ function themeButton() {
   button.addEventListener("click", () => apply(!darkNow));
   wanted.addEventListener("change", (event) => apply(event.matches));
   apply(wanted.matches);
-  let before = false;
-  addEventListener("beforeprint", () => { before = darkNow; setDark(false); charts.forEach((made) => made.draw()); });
-  addEventListener("afterprint", () => setDark(before));
+  fitPaper();
   document.getElementById("print").addEventListener("click", () => print());
 }
 

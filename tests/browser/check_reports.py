@@ -14,6 +14,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import sync_playwright
 
 FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+PRINTED_WIDTH = 688  # 182 mm, A4 between its margins
 HOVER_DIGITS = 5e-5  # half a unit of the fifth digit
 
 
@@ -52,16 +53,18 @@ def check_curves(page, faults):
 
 
 def hover(page, chart, curve, point):
-    """What hovering over a point of a curve says."""
-    return page.evaluate(
-        """([chart, curve, point]) => new Promise((resolve) => {
+    """The text of the label at a point of a curve."""
+    page.evaluate(
+        """([chart, curve, point]) => {
             const plot = charts[chart].plot;
-            plot.once("plotly_hover", (event) => resolve(event.points.map((p) => [p.x, p.y])));
-            const trace = plot.data[curve];
-            Plotly.Fx.hover(plot, [{ curveNumber: curve, pointNumber: point }], trace.yaxis === "y2" ? "xy2" : "xy");
-        }).then((points) => [points, [...charts[chart].plot.querySelectorAll(".hovertext")].map((t) => t.textContent).join(" ")])""",
+            const axes = plot.data[curve].yaxis === "y2" ? "xy2" : "xy";
+            Plotly.Fx.hover(plot, [{ curveNumber: curve, pointNumber: point }], axes);
+        }""",
         [chart, curve, point],
     )
+    label = page.locator(".hovertext tspan, .hovertext text:not(:has(tspan))")
+    label.first.wait_for(state="attached", timeout=5_000)
+    return " ".join(label.all_text_contents())
 
 
 def chart_index(page, words):
@@ -89,13 +92,13 @@ def check_hovers(page, results, faults):
         frequency = results["campbell/frequency"][()]
         chart = chart_index(page, "Campbell diagram:")
         branch, speed = 0, frequency.shape[1] // 2
-        _, text = hover(page, chart, 2 * branch, speed)
+        text = hover(page, chart, 2 * branch, speed)
         faults.unless(says(text, frequency[branch, speed]), f"Campbell hover says {text!r}, file {frequency[branch, speed]}")
         checked += 1
     if "frf/response" in results:
         response = results["frf/response"][0, 0]
         point = len(response) // 3
-        _, text = hover(page, chart_index(page, "Frequency response functions of"), 0, point)
+        text = hover(page, chart_index(page, "Frequency response functions of"), 0, point)
         faults.unless(says(text, abs(response[point])), f"FRF hover says {text!r}, file {abs(response[point])}")
         checked += 1
     if "unbalance/channels" in results:
@@ -104,7 +107,7 @@ def check_hovers(page, results, faults):
         unit = values.attrs["unit"]
         factor = {"m": 1e6, "m/s": 1e3}.get(unit if isinstance(unit, str) else unit.decode(), 1.0)
         point = len(values) // 2
-        _, text = hover(page, chart_index(page, "Response to unbalance:"), 0, point)
+        text = hover(page, chart_index(page, "Response to unbalance:"), 0, point)
         expected = factor * abs(values[point])
         faults.unless(says(text, expected), f"unbalance hover says {text!r}, file {expected}")
         checked += 1
@@ -165,6 +168,24 @@ def check_accessibility(page, faults):
             faults.unless(False, f"axe {violation['id']} ({violation['impact']}, {len(violation['nodes'])}): {where}")
 
 
+def check_print(page, faults):
+    """On paper nothing is wider than the page, every figure is loaded, tables keep their headings."""
+    page.emulate_media(media="print")
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    page.wait_for_function("[...document.images].every((image) => image.complete && image.naturalWidth > 0)", timeout=20_000)
+    wide = page.evaluate(
+        """(width) => [...document.querySelectorAll(".plot .main-svg, img, table")]
+            .filter((e) => e.checkVisibility() && e.getBoundingClientRect().width > width + 2)
+            .map((e) => e.outerHTML.slice(0, 80))""",
+        PRINTED_WIDTH,
+    )
+    faults.unless(not wide, f"wider than a printed page: {wide[:3]}")
+    hidden = page.evaluate("[...document.querySelectorAll('th .sort')].filter((e) => e.closest('details') === null && !e.checkVisibility()).length")
+    faults.unless(hidden == 0, f"{hidden} headings of tables are not printed")
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    page.emulate_media(media="screen")
+
+
 def check(browser, path, results_path, shots):
     faults = Faults(path)
     page = open_page(browser, path, faults, viewport={"width": 1280, "height": 900})
@@ -178,6 +199,8 @@ def check(browser, path, results_path, shots):
     page.locator("#theme").click()
     page.wait_for_timeout(300)
     check_accessibility(page, faults)
+    page.set_viewport_size({"width": PRINTED_WIDTH, "height": 1000})
+    check_print(page, faults)
     if shots:
         take_shots(browser, path, faults, shots)
     page.close()

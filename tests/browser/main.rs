@@ -73,7 +73,8 @@ fn pages_work_in_a_browser() {
         check.arg("--shots").arg(shots);
     }
     let done = check.output().unwrap();
-    let [said, errors] = [&done.stdout, &done.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
-    println!("{said}");
-    assert!(done.status.success(), "{said}\n{errors}");
+    let [output, errors] =
+        [&done.stdout, &done.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
+    println!("{output}");
+    assert!(done.status.success(), "{output}\n{errors}");
 }
