@@ -63,6 +63,8 @@ function chart(caption, height, draw, { click } = {}) {
       paper_bgcolor: c.paper, plot_bgcolor: c.paper, font: { family: "system-ui, sans-serif", size: 13, color: c.ink },
       margin: { l: 70, r: 20, t: 36, b: 48 }, hovermode: "closest", legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 },
       hoverlabel: { bgcolor: c.paper, bordercolor: c.muted, font: { color: c.ink } }, modebar: { color: c.muted, activecolor: c.blue }, ...layout,
+      // A cursor at a value that was not computed is not drawn.
+      shapes: (layout.shapes ?? []).filter((shape) => Number.isFinite(shape.x0)),
       ...(printing ? { width: PRINTED_WIDTH } : {}),
     };
     const config = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["select2d", "lasso2d"] };

@@ -11,7 +11,7 @@ function sections(results, head) {
     ["critical", "Critical speeds", !has("campbell/frequency") && has("critical_speeds/rpm"), () => criticalView(results)],
     ["frf", "Frequency responses", has("frf/response"), () => frfView(results)],
     ["unbalance", "Unbalance response", has("unbalance/rpm"), () => unbalanceView(results)],
-    ["spectra", "Run-up: spectra and orders", results.names("spectra").length > 0, () => spectraView(results)],
+    ["spectra", "Run-up: spectra and orders", results.items("spectra", ...MAPS).length > 0, () => spectraView(results)],
     ["history", "Run-up: time histories", head.history?.channels.length > 0, () => historyView(results, head.history)],
     ["figures", "Further figures", head.figures.length > 0, () => head.figures.map(staticFigure)],
     ["results", "All results", true, () => allResults(results)],

@@ -1,6 +1,7 @@
 """Opens report pages in headless Chromium and checks what a reader would.
 
     check_reports.py CHROMIUM PAGE RESULTS [PAGE RESULTS ...] [--shots FOLDER]
+    check_reports.py --only-open CHROMIUM PAGE [PAGE ...]
 
 Prints a line for every page and every fault; exit code 1 with faults.
 """
@@ -33,6 +34,7 @@ def open_page(browser, path, faults, **options):
     page.on("console", lambda message: faults.unless(message.type != "error", f"console: {message.text}"))
     page.on("pageerror", lambda error: faults.unless(False, f"script: {error}"))
     local = ("file:", "data:", "blob:")
+    page.on("dialog", lambda dialog: (faults.unless(False, f"dialog: {dialog.message[:60]}"), dialog.dismiss()))
     page.on("request", lambda request: faults.unless(request.url.startswith(local), f"request: {request.url[:100]}"))
     page.goto(path.as_uri())
     page.wait_for_selector("body[data-ready]", timeout=120_000)
@@ -210,6 +212,26 @@ def check(browser, path, results_path, shots):
     return len(faults.list)
 
 
+def check_opens(browser, path):
+    """A page of a hostile model: every section is there, its texts are texts, and it fits a narrow window."""
+    faults = Faults(path)
+    page = open_page(browser, path, faults, viewport={"width": 400, "height": 900})
+    draw_all(page)
+    page.wait_for_timeout(300)
+    faults.unless(page.locator("p.failed").count() == 0, f"a section failed: {page.locator('p.failed').all_text_contents()[:2]}")
+    for summary in page.locator("details > summary").all():
+        summary.click()
+    foreign = page.evaluate("[...document.querySelectorAll('main [onclick], main [onerror], main script, main iframe')].map((e) => e.outerHTML.slice(0, 80))")
+    faults.unless(not foreign, f"elements of the model's texts: {foreign[:3]}")
+    wide = page.evaluate("document.documentElement.scrollWidth")
+    faults.unless(wide <= 400, f"the page is {wide} px wide in a window of 400")
+    page.close()
+    print(f"{path}: opened, {len(faults.list)} faults")
+    for fault in faults.list:
+        print(f"  {fault}")
+    return len(faults.list)
+
+
 def take_shots(browser, path, faults, folder):
     stem = f"{path.parent.name}_{path.stem}"
     for name, width, scheme in [("light", 1280, "light"), ("dark", 1280, "dark"), ("narrow", 400, "light")]:
@@ -232,11 +254,17 @@ def main(arguments):
         shots = Path(arguments[at + 1])
         shots.mkdir(parents=True, exist_ok=True)
         del arguments[at : at + 2]
+    only_open = "--only-open" in arguments
+    if only_open:
+        arguments.remove("--only-open")
     chromium, *files = arguments
     pairs = list(zip(files[::2], files[1::2]))
     with sync_playwright() as play:
         browser = play.chromium.launch(executable_path=chromium, args=FLAGS)
-        faults = sum(check(browser, Path(page).resolve(), results, shots) for page, results in pairs)
+        if only_open:
+            faults = sum(check_opens(browser, Path(page).resolve()) for page in files)
+        else:
+            faults = sum(check(browser, Path(page).resolve(), results, shots) for page, results in pairs)
         browser.close()
     sys.exit(1 if faults else 0)
 
