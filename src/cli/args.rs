@@ -227,17 +227,21 @@ Examples:
     ///
     /// Default without [study.unbalance]: 200 speeds up to 1.5 times the highest of [speed], else 6000 rpm.
     /// Speeds are added around the critical speeds (refine = false: none). Every peak is listed with its
-    /// amplification factor, and its separation from the highest speed of [speed] as in API 617.
+    /// amplification factor, every critical speed with log decrement and separation margin from the operating
+    /// speeds as in API 617; bearing forces over speed; bending moment along the shaft where it is largest.
     #[command(after_long_help = "\
 Examples:
   rotordyn unbalance models/jeffcott.toml
-  rotordyn unbalance models/jeffcott.toml --max-speed \"6000 rpm\"")]
+  rotordyn unbalance models/jeffcott.toml --max-speed \"6000 rpm\"
+  rotordyn unbalance models/jeffcott.toml --speed-range \"2800, 3200 rpm\"")]
     Unbalance {
         #[command(flatten)]
         study: StudyArgs,
         /// Highest speed, such as "6000 rpm"; 200 speeds
         #[arg(long, value_name = "SPEED")]
         max_speed: Option<String>,
+        #[arg(long, value_name = "SPEEDS", help = key_help("study.unbalance.operating_speeds"))]
+        speed_range: Option<String>,
     },
 
     /// Nonlinear transient run-up through the speed profile, one Hertz contact per ball

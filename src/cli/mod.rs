@@ -56,6 +56,7 @@ mod system;
 mod tables;
 mod terminal;
 mod trend;
+mod unbalance_tables;
 mod update;
 mod validate;
 
@@ -168,9 +169,9 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
             noisy_frf::run(study, test, &settings, terminal)?;
             Ok(outcome)
         }
-        Command::Unbalance { study, max_speed } => {
-            run_one(study, Study::Unbalance, &|model| settings::unbalance(model, max_speed.as_ref()))
-        }
+        Command::Unbalance { study, max_speed, speed_range } => run_one(study, Study::Unbalance, &|model| {
+            settings::unbalance(model, max_speed.as_ref(), speed_range.as_ref())
+        }),
         Command::RunUp { study, step, integrator, sample_rate, motion_rate, cage_phases, checkpoints } => {
             resumable(study, checkpoints, Study::RunUp, &|model| {
                 let [step, integrator, rate, motion] =

@@ -128,8 +128,9 @@ pub fn frf(
     draft.defaults(model.studies.frf.is_none(), &words, &[("frequencies", sweep("500 Hz"))])
 }
 
-pub fn unbalance(model: &Model, max_speed: Option<&String>) -> Settings {
+pub fn unbalance(model: &Model, max_speed: Option<&String>, speed_range: Option<&String>) -> Settings {
     let mut draft = SettingsBuilder::new("unbalance");
+    draft.set_from("--speed-range", speed_range, "operating_speeds", toml_string);
     draft.set_from("--max-speed", max_speed, "speeds", |top| sweep("1 rpm", top, 200));
     let top = rpm_or(top_speed(model).map(|top| 1.5 * top), 6000.0);
     let words = format!("200 speeds up to {top}");

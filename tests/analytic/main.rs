@@ -15,4 +15,5 @@ mod precession;
 mod responses;
 mod rigid_rotor;
 mod shaft_limits;
+mod shaft_loads;
 mod unbalance_phase;

@@ -93,7 +93,7 @@ fn section_of_a_linear_rotor_is_its_unbalance_response() {
     let plane = plane(&machine.model, "disc_x", "disc_y");
     let responses = vec![plane.x.clone(), plane.y.clone()];
     let linear =
-        machine.unbalance(&UnbalanceStudy { speeds: vec![speed], refine: false, responses }).unwrap();
+        machine.unbalance(&UnbalanceStudy { speeds: vec![speed], refine: false, responses, operating_speeds: None }).unwrap();
     let rest = machine
         .equilibrium(&rotordyn::model::study::EquilibriumStudy { speed, cage_average: false })
         .unwrap();

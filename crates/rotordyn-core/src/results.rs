@@ -1,6 +1,7 @@
 //! Results of single studies: plain data in SI, and what is written of them to files.
 
 mod bearing;
+mod bearing_force;
 mod bifurcation;
 mod cage_comparison;
 mod campbell;
@@ -29,6 +30,7 @@ pub use bearing::{
     BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, ContactState, EhlFilm,
     PickContact,
 };
+pub use bearing_force::BearingForce;
 pub use bifurcation::{BifurcationPoint, BifurcationResult, BifurcationSweep, SteadyMotion};
 pub use cage_comparison::{CageLine, CageSpeed, RollingCageComparison};
 pub use campbell::CampbellResult;

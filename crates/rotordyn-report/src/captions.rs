@@ -16,8 +16,11 @@ const INTERACTIVE: [&str; 9] = [
 const STILL_DRAWN: [&str; 2] = ["run_up_energy", "run_up_bearing_"];
 
 /// Beginning of a figure's name, what is seen.
-const CAPTIONS: [(&str, &str); 18] = [
+const CAPTIONS: [(&str, &str); 21] = [
     ("static_deflection", "Static deflection of the shaft."),
+    ("static_shaft_loads", "Deflection, shear force and bending moment along the shaft at rest."),
+    ("unbalance_shaft_loads", "Amplitudes of deflection, shear force and bending moment along the shaft."),
+    ("unbalance_bearing_forces", "Dynamic bearing forces under unbalance, with the static forces."),
     ("ball_loads", "Loads of the balls in every bearing at static equilibrium."),
     ("modes_", "Mode shapes with their orbits."),
     ("unbalance_polar", "Response to unbalance as polar plot."),

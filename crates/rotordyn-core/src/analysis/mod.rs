@@ -11,7 +11,11 @@
 //! | [`sensitivity`] | derivatives of eigenvalues, mode shapes and FRFs with respect to any parameter |
 //! | [`poles`] | poles of FRFs and of the unbalance response |
 //! | [`peaks`] | resonance peaks over speed: amplification factor, separation margin |
+//! | [`separation`] | critical speeds with separation margins from the operating speeds |
 //! | [`refine`](mod@refine) | grids refined around poles |
+//! | [`section_loads`] | shear force, bending moment, axial force and torque along the shaft |
+//! | [`shaft_loads`] | deflection and section loads along the shaft, at rest and under unbalance |
+//! | [`support_forces`](mod@support_forces) | forces of the supports on the shaft |
 //! | [`stability`] | stability thresholds: speeds where a mode's damping vanishes |
 //! | [`frf`] | frequency response functions at a fixed speed |
 //! | [`harmonic`] | steady harmonic response of a linear system, the common solver of FRF and unbalance |
@@ -35,8 +39,12 @@ pub mod peaks;
 pub mod poles;
 pub mod preload;
 pub mod refine;
+pub mod section_loads;
 pub mod sensitivity;
+pub mod separation;
+pub mod shaft_loads;
 pub mod stability;
+pub mod support_forces;
 pub mod table_range;
 pub mod unbalance;
 

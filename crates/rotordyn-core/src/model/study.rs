@@ -97,6 +97,8 @@ pub struct UnbalanceStudy {
     /// Add speeds around the critical speeds.
     pub refine: bool,
     pub responses: Vec<Probe>,
+    /// Lowest and highest operating speed for the separation margins \[rad/s\]; `None`: the highest of the speed profile.
+    pub operating_speeds: Option<[f64; 2]>,
 }
 
 /// Nonlinear transient through the speed profile.

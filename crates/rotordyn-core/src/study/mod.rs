@@ -24,6 +24,7 @@ pub mod signal;
 mod steady_motion;
 mod step_error;
 pub mod trend;
+mod unbalance_loads;
 mod variant_comparison;
 mod warnings;
 

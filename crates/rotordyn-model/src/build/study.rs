@@ -137,6 +137,8 @@ keys! {
     static UNBALANCE: UnbalanceStudyKeys {
         speeds: Spaced = spaced(not_negative(SPEED), "Speeds, increasing.").example(SPEEDS);
         refine: Flag = flag("Add speeds around the critical speeds.").default("true");
+        operating_speeds: Spaced = spaced(positive(SPEED), "Lowest and highest operating speed, for separation margins.")
+            .computed("the highest of [speed]").example("\"2800, 3200 rpm\"");
     }
 }
 
@@ -254,7 +256,8 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
     if let Some(r) = all.table(&STUDY.unbalance) {
         let responses = responses(&r, model, MotionQuantity::Displacement);
         let (speeds, refine) = (speeds(&r, &UNBALANCE.speeds), r.flag(&UNBALANCE.refine));
-        studies.unbalance = Some(UnbalanceStudy { speeds, refine, responses });
+        let operating_speeds = operating_speeds(&r);
+        studies.unbalance = Some(UnbalanceStudy { speeds, refine, responses, operating_speeds });
         if model.unbalances.is_empty() && r.has_no_errors() {
             let problem = Problem::new(Kind::MissingKey, &r.span, "study.unbalance needs an unbalance");
             r.log.error(problem.hint("add [unbalance.NAME] with station and magnitude"));
@@ -326,6 +329,25 @@ fn speeds(r: &Reader, key: &Key<Spaced>) -> Vec<f64> {
     let speeds = r.spaced(key).unwrap_or_else(|| vec![0.0]);
     check_increasing(r, key, &speeds);
     speeds
+}
+
+/// One operating speed, or the lowest and the highest.
+fn operating_speeds(r: &Reader) -> Option<[f64; 2]> {
+    let key = &UNBALANCE.operating_speeds;
+    if !r.has(key) {
+        r.taken_by_default(key, "the highest of [speed]");
+        return None;
+    }
+    let speeds = r.spaced(key)?;
+    check_increasing(r, key, &speeds);
+    match speeds[..] {
+        [only] => Some([only; 2]),
+        [lowest, highest] => Some([lowest, highest]),
+        _ => {
+            r.error(Kind::OutOfRange, key, format!("{} must be one speed, or lowest and highest", r.name(key)));
+            None
+        }
+    }
 }
 
 fn frf(r: &Reader, model: &Model, places: &Places) -> FrfStudy {
