@@ -6,6 +6,7 @@ mod init;
 pub mod keys;
 mod manual;
 mod measured;
+mod rotor;
 mod steady;
 mod update;
 
@@ -25,6 +26,7 @@ pub use bearing::BearingArgs;
 pub use init::{InitArgs, STARTERS};
 use manual::{AFTER_HELP, LONG_ABOUT};
 pub use measured::{EstimatorName, IdentifyArgs, NoiseArgs, ShaftArgs};
+pub use rotor::{CriticalMapArgs, TorsionalArgs};
 pub use steady::{BifurcationArgs, PoincareArgs, SteadyArgs};
 pub use update::{FitResidual, MeasuredArgs, UpdateArgs, ValidateArgs};
 
@@ -195,6 +197,20 @@ Examples:
         #[arg(long, value_name = "ORDERS", value_delimiter = ',', help = key_help_with("study.critical.orders", "such as 1,2,BPFO"))]
         orders: Vec<String>,
     },
+
+    /// Undamped critical speed map: critical speeds over bearing stiffness, with the bearings' own over speed
+    ///
+    /// All bearings get the same radial stiffness; forward modes. Default without [study.critical_map]: up to three
+    /// times the highest speed of [speed], else 6000 rpm; stiffness a decade and more around that of the bearings.
+    #[command(after_long_help = rotor::CRITICAL_MAP)]
+    CriticalMap(CriticalMapArgs),
+
+    /// Torsional natural frequencies, their mode shapes and the orders that meet them (interference diagram)
+    ///
+    /// Undamped rotation of the shaft with its discs. Default without [study.torsional]: orders 1 and 2 up to 1.5 times
+    /// the highest speed of [speed], else 6000 rpm.
+    #[command(after_long_help = rotor::TORSIONAL)]
+    Torsional(TorsionalArgs),
 
     /// Frequency response functions at a fixed speed
     ///

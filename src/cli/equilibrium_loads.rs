@@ -8,6 +8,9 @@ use rotordyn::bearing::Preload;
 
 use super::terminal::{Terminal, number};
 
+/// Forces of supports smaller than this fraction of the largest are round-off.
+const ROUND_OFF: f64 = 1e-9;
+
 /// Pull of the belts at equilibrium beside the stated one.
 pub fn belts(terminal: &Terminal, found: &[BeltPull]) {
     let rows: Vec<Vec<String>> = found
@@ -82,12 +85,16 @@ pub fn shaft(terminal: &Terminal, found: &Equilibrium) {
     })
     .collect();
     terminal.table("Shaft at rest: largest deflection and loads", &["", "largest", "at z mm"], &rows);
+    let all = found.support_forces.iter().flat_map(|r| r.force);
+    let largest = all.fold(0.0, |most: f64, f| most.max(f.abs()));
     let rows: Vec<Vec<String>> = found
         .support_forces
         .iter()
         .map(|r| {
             let mut row = vec![r.name.clone(), format!("{:.1}", 1e3 * r.z)];
-            row.extend(r.force[..5].iter().map(|f| number(*f, 4)));
+            // Differences of section loads have their round-off.
+            let shown = |f: f64| if f.abs() < ROUND_OFF * largest { 0.0 } else { f };
+            row.extend(r.force[..5].iter().map(|f| number(shown(*f), 4)));
             row
         })
         .collect();

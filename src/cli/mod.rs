@@ -39,6 +39,7 @@ mod printed;
 mod renamed;
 mod report_page;
 mod resumed_run;
+mod rotor_tables;
 mod run_identity;
 mod run_up;
 mod run_up_correlation;
@@ -159,6 +160,12 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         }
         Command::Critical { study, max_speed, orders } => {
             run_one(study, Study::Critical, &|model| settings::critical(model, max_speed.as_ref(), orders))
+        }
+        Command::CriticalMap(args) => {
+            run_one(&args.study, Study::CriticalMap, &|model| settings::critical_map(model, args))
+        }
+        Command::Torsional(args) => {
+            run_one(&args.study, Study::Torsional, &|model| settings::torsional(model, args))
         }
         Command::Frf { study, speed, max_frequency, quantity, test } => {
             let settings = |model: &Model| {

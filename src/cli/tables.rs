@@ -14,6 +14,7 @@ use rotordyn::series::SeriesError;
 
 use super::equilibrium_loads;
 use super::printed;
+use super::rotor_tables;
 use super::terminal::{Terminal, number, rpm};
 use super::unbalance_tables;
 
@@ -159,6 +160,7 @@ pub fn campbell(terminal: &Terminal, found: &CampbellResult) {
             rpm(*last)
         ));
     }
+    rotor_tables::stability(terminal, found);
     for threshold in &found.thresholds {
         let side = if threshold.unstable_above { "above" } else { "below" };
         terminal.print(&format!(

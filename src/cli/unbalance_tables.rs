@@ -32,7 +32,8 @@ pub fn margins(terminal: &Terminal, found: &UnbalanceResult) {
             ]
         })
         .collect();
-    let header = ["critical rpm", "mode", "log dec", "peak rpm", "AF", "margin %", "required %", "assessment"];
+    let header =
+        ["critical rpm", "mode", "log dec", "peak rpm", "AF", "margin %", "required %", "assessment"];
     terminal.table("Critical speeds: separation margins after API 617", &header, &rows);
     let operating = match found.operating_speeds.map(|speeds| speeds.map(rpm)) {
         Some([low, high]) if low == high => format!("margins from {high:.0} rpm"),

@@ -16,10 +16,8 @@ const G: f64 = 9.80665;
 
 /// 1 m of 40 mm shaft in ten elements, rigid in shear.
 fn beam() -> Model {
-    let bar = || rotordyn::element::ShaftElement {
-        shear: ShearCoefficient::Rigid,
-        ..element(0.1, 0.04, 0.04)
-    };
+    let bar =
+        || rotordyn::element::ShaftElement { shear: ShearCoefficient::Rigid, ..element(0.1, 0.04, 0.04) };
     shaft((0..10).map(|_| bar()).collect())
 }
 
@@ -129,12 +127,17 @@ fn on_springs(stiffness: [f64; 2], damping: f64) -> Machine {
 fn bearing_forces_balance_unbalance_and_inertia() {
     let machine = on_springs([4e6, 7e6], 800.0);
     let speeds: Vec<f64> = (1..40).map(|k| 20.0 * f64::from(k)).collect();
-    let study =
-        UnbalanceStudy { speeds, refine: false, responses: Vec::new(), operating_speeds: Some([600.0, 700.0]) };
+    let study = UnbalanceStudy {
+        speeds,
+        refine: false,
+        responses: Vec::new(),
+        operating_speeds: Some([600.0, 700.0]),
+    };
     let found = machine.unbalance(&study).unwrap();
     let dofs = &machine.assembly.dofs;
     for (k, &speed) in found.response.speeds.iter().enumerate() {
-        let momentum = machine.assembly.full_mass.mul_complex(&dofs.expand_complex(&found.response.amplitudes[k]));
+        let momentum =
+            machine.assembly.full_mass.mul_complex(&dofs.expand_complex(&found.response.amplitudes[k]));
         for axis in 0..2 {
             let pick = |force: &rotordyn::results::BearingForce| {
                 let pair = if axis == 0 { force.x[k] } else { force.y[k] };
@@ -143,7 +146,8 @@ fn bearing_forces_balance_unbalance_and_inertia() {
             let bearings: Complex64 = found.bearing_forces.iter().map(pick).sum();
             let unbalance = Complex64::from_polar(2e-4 * speed * speed, 0.4)
                 * if axis == 0 { Complex64::new(1.0, 0.0) } else { Complex64::new(0.0, -1.0) };
-            let inertia: Complex64 = momentum.iter().skip(axis).step_by(6).sum::<Complex64>() * (speed * speed);
+            let inertia: Complex64 =
+                momentum.iter().skip(axis).step_by(6).sum::<Complex64>() * (speed * speed);
             let rest = bearings + unbalance + inertia;
             // Round-off of the stiff shaft against the forces of the bearings.
             assert!(rest.norm() < 1e-9 * (unbalance.norm() + bearings.norm()), "{speed}: {rest}");
@@ -161,7 +165,8 @@ fn bearing_forces_balance_unbalance_and_inertia() {
 fn sections_under_unbalance_carry_the_bearing_forces() {
     let machine = on_springs([5e6, 5e6], 500.0);
     let speed = 300.0;
-    let study = UnbalanceStudy { speeds: vec![speed], refine: false, responses: Vec::new(), operating_speeds: None };
+    let study =
+        UnbalanceStudy { speeds: vec![speed], refine: false, responses: Vec::new(), operating_speeds: None };
     let found = machine.unbalance(&study).unwrap();
     let q = machine.assembly.dofs.expand_complex(&found.response.amplitudes[0]);
     let sections = ShaftSections::new(&machine.model).at_speed(&q, speed);

@@ -8,6 +8,8 @@
 //! | [`modal`] | natural frequencies, damping, mode shapes, kinds and labels at one speed |
 //! | [`campbell`] | modes over speed (Campbell diagram), tracked by MAC |
 //! | [`critical_speed`] | critical speeds: intersections of modes with order lines |
+//! | [`critical_map`] | undamped critical speeds over the stiffness of the bearings |
+//! | [`torsional`] | undamped torsional modes |
 //! | [`sensitivity`] | derivatives of eigenvalues, mode shapes and FRFs with respect to any parameter |
 //! | [`poles`] | poles of FRFs and of the unbalance response |
 //! | [`peaks`] | resonance peaks over speed: amplification factor, separation margin |
@@ -27,6 +29,7 @@ mod bearing_state;
 pub mod bearing_stiffness;
 pub mod belt_pull;
 pub mod campbell;
+pub mod critical_map;
 pub mod critical_speed;
 pub mod equilibrium;
 pub mod frf;
@@ -46,6 +49,7 @@ pub mod shaft_loads;
 pub mod stability;
 pub mod support_forces;
 pub mod table_range;
+pub mod torsional;
 pub mod unbalance;
 
 pub use modal::Mode;

@@ -1,5 +1,6 @@
 //! Critical speeds of the unbalance response with their separation margins, as API 684 tabulates them.
 
+use super::mode_kind::ModeKind;
 use super::peaks::{CRITICALLY_DAMPED, Peak, required_separation, separation};
 use super::poles::Pole;
 use crate::document::{Rows, TO_RPM, named};
@@ -60,7 +61,7 @@ impl Assessment {
     }
 }
 
-/// The margins of every pole of an unbalance response, by speed.
+/// The margins of every pole of an unbalance response, by speed; without torsional and axial modes that it does not excite.
 ///
 /// A peak belongs to the nearest pole; of several peaks of a pole the one with the largest AF counts, which requires the
 /// largest margin. `excited` says whether the unbalance excites a pole.
@@ -78,10 +79,14 @@ pub fn separation_margins(
         let nearest = excited.iter().min_by(|a, b| distance(a, peak).total_cmp(&distance(b, peak)));
         nearest.filter(|pole| distance(pole, peak) <= 1.0).map(|pole| pole.at)
     };
+    let not_lateral = [ModeKind::Torsional, ModeKind::Axial];
     let mut found: Vec<SeparationMargin> = poles
         .iter()
-        .map(|pole| {
-            let is_excited = excited.iter().any(|other| std::ptr::eq(*other, pole));
+        .map(|pole| (pole, excited.iter().any(|other| std::ptr::eq(*other, pole))))
+        .filter(|(pole, is_excited)| {
+            *is_excited || !pole.kind.is_some_and(|kind| not_lateral.contains(&kind))
+        })
+        .map(|(pole, is_excited)| {
             let own = peaks.iter().filter(|(_, peak)| is_excited && owner(peak) == Some(pole.at));
             let sharpest = own
                 .filter_map(|(name, peak)| Some((name, peak.at, peak.amplification()?)))
@@ -91,7 +96,7 @@ pub fn separation_margins(
             let amplification =
                 if undamped { Some(f64::INFINITY) } else { sharpest.map(|(_, _, factor)| factor) };
             let at = sharpest.map_or(pole.at, |(_, at, _)| at);
-            let available = operating.map(|speeds| separation(at, speeds));
+            let available = operating.filter(|_| is_excited).map(|speeds| separation(at, speeds));
             let required =
                 operating.zip(amplification).map(|(speeds, factor)| required_separation(at, factor, speeds));
             // Modes too damped for a peak are known by their own half-width.
@@ -156,8 +161,14 @@ mod tests {
         let flat = Pole::new(500.0, 150.0);
         let poles: Vec<Pole> = poles.into_iter().chain([flat]).collect();
         let unresolved = ("probe".into(), Peak { at: 300.0, amplitude: 1.0, half_power: None });
-        let peaks =
-            [peak(80.0, 10.0), peak(90.0, 10.0), peak(120.0, 10.0), peak(130.0, 10.0), peak(200.0, 2.4), unresolved];
+        let peaks = [
+            peak(80.0, 10.0),
+            peak(90.0, 10.0),
+            peak(120.0, 10.0),
+            peak(130.0, 10.0),
+            peak(200.0, 2.4),
+            unresolved,
+        ];
         let found = separation_margins(&poles, &peaks, |pole| pole.at != 400.0, Some([100.0, 100.0]));
         let expected = [
             Assessment::Sufficient,

@@ -59,16 +59,22 @@ pub fn support_forces(model: &Model, sections: &[SectionLoad]) -> Vec<SupportFor
         name(&Anchor::node(belt.node), format!("belt.{}", belt.name));
     }
     let held = names.iter().enumerate().filter(|(_, names)| !names.is_empty() && !sections.is_empty());
-    held.map(|(node, names)| SupportForce { name: names.join(" + "), z: model.node_z[node], force: force[node] })
-        .collect()
+    held.map(|(node, names)| SupportForce {
+        name: names.join(" + "),
+        z: model.node_z[node],
+        force: force[node],
+    })
+    .collect()
 }
 
 impl SupportForce {
     /// What is written to files, one row a support.
     pub fn columns(found: &[Self]) -> Rows<'static, '_, Self> {
-        Rows::of(found)
-            .text("support", |r| &r.name)
-            .number(named("z_m", "z"), "m", |r| r.z)
-            .numbers("force", "N, N m", &[6], |r| r.force)
+        Rows::of(found).text("support", |r| &r.name).number(named("z_m", "z"), "m", |r| r.z).numbers(
+            "force",
+            "N, N m",
+            &[6],
+            |r| r.force,
+        )
     }
 }

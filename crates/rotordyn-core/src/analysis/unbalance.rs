@@ -87,7 +87,8 @@ pub fn response(
                 motion: unconstrained_motion(assembly, &system, pivot.unknown),
             })?;
             solver.solve(&mut q);
-            let forces = assembly.sites.iter().zip(&tangents).map(|(site, t)| bearing_force(site, t, &q, speed));
+            let forces =
+                assembly.sites.iter().zip(&tangents).map(|(site, t)| bearing_force(site, t, &q, speed));
             let forces = forces.collect();
             Ok((q, forces))
         })

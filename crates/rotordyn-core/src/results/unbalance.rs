@@ -1,7 +1,7 @@
 //! Unbalance response.
 
-use super::{BearingForce, UndampedPeak};
 use super::response_grid::{is_rotation, requested_mask, unit_of};
+use super::{BearingForce, UndampedPeak};
 use crate::analysis::peaks::Peak;
 use crate::analysis::separation::SeparationMargin;
 use crate::analysis::shaft_loads::ShaftAmplitudes;
@@ -93,7 +93,11 @@ impl UnbalanceResult {
             .array(in_hdf5("requested"), requested_mask(&self.requested, count).over(0, "rpm"))
             .numbers(named("speeds_rpm", "rpm"), "rpm", speeds)
             .optional(in_json("operating_speed_rpm"), "rad/s", self.operating_speeds.map(|speeds| speeds[1]))
-            .optional(in_json("lowest_operating_speed_rpm"), "rad/s", self.operating_speeds.map(|speeds| speeds[0]))
+            .optional(
+                in_json("lowest_operating_speed_rpm"),
+                "rad/s",
+                self.operating_speeds.map(|speeds| speeds[0]),
+            )
             .table("peaks", self.peak_columns())
             .table("separation_margins", SeparationMargin::columns(&self.margins))
             .table(in_json("bearing_forces"), BearingForce::columns(&self.bearing_forces, count))

@@ -115,9 +115,8 @@ impl Machine {
             let found = unbalance::response(&self.assembly, speeds, &tangents)?;
             Ok(found.amplitudes.into_iter().zip(found.bearing_forces).collect())
         };
-        let curves = |(q, _): &Sample| -> Vec<Complex64> {
-            observed.iter().map(|row| row.dot_complex(q)).collect()
-        };
+        let curves =
+            |(q, _): &Sample| -> Vec<Complex64> { observed.iter().map(|row| row.dot_complex(q)).collect() };
         let RefinedGrid { points: speeds, samples, requested } =
             refined(&study.speeds, &poles, study.refine, evaluate, curves)?;
         let (amplitudes, bearing_forces) = samples.into_iter().unzip();

@@ -6,6 +6,7 @@ use super::increasing::check_increasing;
 use super::loading::{self, DirectionKeys, QUANTITIES, anchor_and_direction};
 use super::orders::{ORDER, orders};
 use super::places::{AnchorKeys, Places};
+use super::rotor_studies::{self, RotorStudyKeys};
 use super::run_keys::{
     IntegratorKeys, RUN_STEP, StepKeys, channels, default_integrator, default_step_us, integrator, top_speed,
 };
@@ -35,7 +36,11 @@ keys! {
 
 static STUDY_TABLE: Table = Table {
     meaning: "Studies of the machine; each is done if its table is in the file, with defaults if that is empty.",
-    groups: &[Group::always(StudyKeys::LIST), Group::always(SteadyStudyKeys::LIST)],
+    groups: &[
+        Group::always(StudyKeys::LIST),
+        Group::always(RotorStudyKeys::LIST),
+        Group::always(SteadyStudyKeys::LIST),
+    ],
 };
 
 keys! {
@@ -137,7 +142,7 @@ keys! {
     static UNBALANCE: UnbalanceStudyKeys {
         speeds: Spaced = spaced(not_negative(SPEED), "Speeds, increasing.").example(SPEEDS);
         refine: Flag = flag("Add speeds around the critical speeds.").default("true");
-        operating_speeds: Spaced = spaced(positive(SPEED), "Lowest and highest operating speed, for separation margins.")
+        operating_speeds: Spaced = spaced(positive(SPEED), rotor_studies::OPERATING_SPEEDS)
             .computed("the highest of [speed]").example("\"2800, 3200 rpm\"");
     }
 }
@@ -256,7 +261,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
     if let Some(r) = all.table(&STUDY.unbalance) {
         let responses = responses(&r, model, MotionQuantity::Displacement);
         let (speeds, refine) = (speeds(&r, &UNBALANCE.speeds), r.flag(&UNBALANCE.refine));
-        let operating_speeds = operating_speeds(&r);
+        let operating_speeds = rotor_studies::operating_speeds(&r, &UNBALANCE.operating_speeds);
         studies.unbalance = Some(UnbalanceStudy { speeds, refine, responses, operating_speeds });
         if model.unbalances.is_empty() && r.has_no_errors() {
             let problem = Problem::new(Kind::MissingKey, &r.span, "study.unbalance needs an unbalance");
@@ -289,6 +294,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
         work_limits::check_run_up(&r, [&RUN_STEP.step, &RUN_UP.sample_rate], study, model.profile.duration());
         r.finish();
     }
+    rotor_studies::read(&all, model, &mut studies);
     steady::read(&all, model, &mut studies);
     let sites = model.bearings.iter().map(|site| (&site.name, &site.bearing));
     studies.bearing = bearing(&all, sites);
@@ -329,25 +335,6 @@ fn speeds(r: &Reader, key: &Key<Spaced>) -> Vec<f64> {
     let speeds = r.spaced(key).unwrap_or_else(|| vec![0.0]);
     check_increasing(r, key, &speeds);
     speeds
-}
-
-/// One operating speed, or the lowest and the highest.
-fn operating_speeds(r: &Reader) -> Option<[f64; 2]> {
-    let key = &UNBALANCE.operating_speeds;
-    if !r.has(key) {
-        r.taken_by_default(key, "the highest of [speed]");
-        return None;
-    }
-    let speeds = r.spaced(key)?;
-    check_increasing(r, key, &speeds);
-    match speeds[..] {
-        [only] => Some([only; 2]),
-        [lowest, highest] => Some([lowest, highest]),
-        _ => {
-            r.error(Kind::OutOfRange, key, format!("{} must be one speed, or lowest and highest", r.name(key)));
-            None
-        }
-    }
 }
 
 fn frf(r: &Reader, model: &Model, places: &Places) -> FrfStudy {

@@ -4,8 +4,10 @@
 //! |---|---|
 //! | `machine_layout` | layout of the machine, side view |
 //! | `static_deflection`, `ball_loads` | static equilibrium |
-//! | `static_shaft_loads`, `unbalance_shaft_loads` | deflection, shear force and bending moment along the shaft |
-//! | `modes_<speed>rpm`, `campbell` | mode shapes, Campbell diagram |
+//! | `static_shaft_loads`, `unbalance_shaft_loads_<speed>rpm` | deflection, shear force and bending moment along the shaft |
+//! | `modes_<speed>rpm`, `campbell`, `stability` | mode shapes, Campbell diagram, log decrement over speed |
+//! | `critical_map` | undamped critical speeds over bearing stiffness |
+//! | `torsional_interference`, `torsional_modes` | torsional natural frequencies with order lines, twist along the shaft |
 //! | `frf_<excitation>` | frequency response functions (Bode plots), rotations separately (`_rotation`) |
 //! | `unbalance_bode_<quantity>`, `unbalance_polar_<quantity>`, `unbalance_orbits` | synchronous unbalance response: Bode plot, polar (Nyquist) plot, orbits |
 //! | `unbalance_bearing_forces` | dynamic force of every bearing over speed, with its static force |
@@ -37,6 +39,7 @@ mod machine;
 mod named;
 mod order_tracks;
 mod response;
+mod rotor_maps;
 mod run;
 mod run_free_ball;
 mod run_up_correlation;
@@ -113,6 +116,12 @@ fn with_concerns<'a>(
     add(&["static"], loaded.collect());
     add(&["modal"], results.modal.iter().map(|found| machine::modes(found, machine)).collect());
     add(&["campbell"], results.campbell.iter().map(|found| campbell::campbell(found, machine)).collect());
+    let stability = results.campbell.iter().filter_map(|found| rotor_maps::stability(found, machine));
+    add(&["campbell"], stability.collect());
+    let map = results.critical_map.iter().filter_map(|found| rotor_maps::critical_map(found, machine));
+    add(&["critical_map"], map.collect());
+    let torsional = results.torsional.iter().flat_map(|found| rotor_maps::torsional(found, machine));
+    add(&["torsional"], torsional.collect());
     add(&["frf"], results.frf.iter().flat_map(|found| response::frf(found, machine)).collect());
     let criticals = response::criticals(results);
     let unbalance =
@@ -165,6 +174,8 @@ fn studies_of_section(section: &str) -> &'static [&'static str] {
         "modal" => &["modal"],
         "campbell" => &["campbell"],
         "critical_speeds" => &["critical"],
+        "critical_map" => &["critical_map"],
+        "torsional" => &["torsional"],
         "frf" => &["frf"],
         "unbalance" => &["unbalance"],
         "run_up" => &["run_up"],

@@ -52,37 +52,38 @@ fn along_shaft(
     Figure::Stack(Stack { title, note, x_name, x_unit, legend, panels, marks, height: HEIGHT })
 }
 
-/// Amplitudes along the shaft under unbalance, a curve for each speed; bearing forces over speed.
+/// Amplitudes along the shaft under unbalance, a figure for each speed; bearing forces over speed.
 pub fn under_unbalance(found: &UnbalanceResult, machine: &Machine) -> Vec<Named> {
-    let mut out = Vec::new();
-    if !found.shaft.is_empty() {
-        let panel = |name: &str, unit: &str, factor: f64, of: &dyn Fn(&ShaftAmplitude) -> f64| {
-            let curve = |shaft: &ShaftAmplitudes| Curve {
-                x: shaft.points.iter().map(|p| 1e3 * p.z).collect(),
-                y: shaft.points.iter().map(|p| factor * of(p)).collect(),
-                ..Curve::default()
-            };
-            StackPanel {
-                name: name.into(),
-                unit: unit.into(),
-                curves: found.shaft.iter().map(curve).collect(),
-                log_y: found.shaft.len() > 1,
-                from_zero: true,
-                ..StackPanel::default()
-            }
-        };
-        let panels = vec![
-            panel("deflection", "µm", 1e6, &|p| p.displacement),
-            panel("shear force", "N", 1.0, &|p| p.shear),
-            panel("bending moment", "N·m", 1.0, &|p| p.moment),
-        ];
-        let legend = found.shaft.iter().map(|s| format!("{:.0} rpm: {}", s.speed * TO_RPM, s.reason)).collect();
-        let note = format!("{}, amplitudes", machine.model.title);
-        let figure = along_shaft("Shaft under unbalance".into(), note, legend, panels, &machine.model);
-        out.push(("unbalance_shaft_loads".into(), figure));
-    }
+    let mut out: Vec<Named> = found.shaft.iter().map(|shaft| amplitudes(shaft, machine)).collect();
     out.extend(bearing_forces(found, machine));
     out
+}
+
+fn amplitudes(shaft: &ShaftAmplitudes, machine: &Machine) -> Named {
+    let panel = |name: &str, unit: &str, factor: f64, of: &dyn Fn(&ShaftAmplitude) -> f64| {
+        let curve = Curve {
+            x: shaft.points.iter().map(|p| 1e3 * p.z).collect(),
+            y: shaft.points.iter().map(|p| factor * of(p)).collect(),
+            ..Curve::default()
+        };
+        StackPanel {
+            name: name.into(),
+            unit: unit.into(),
+            curves: vec![curve],
+            from_zero: true,
+            ..StackPanel::default()
+        }
+    };
+    let panels = vec![
+        panel("deflection", "µm", 1e6, &|p| p.displacement),
+        panel("shear force", "N", 1.0, &|p| p.shear),
+        panel("bending moment", "N·m", 1.0, &|p| p.moment),
+    ];
+    let rpm = shaft.speed * TO_RPM;
+    let note = format!("{}, amplitudes, {}", machine.model.title, shaft.reason);
+    let title = format!("Shaft under unbalance at {rpm:.0} rpm");
+    let figure = along_shaft(title, note, Vec::new(), panels, &machine.model);
+    (format!("unbalance_shaft_loads_{rpm:.0}rpm"), figure)
 }
 
 fn bearing_forces(found: &UnbalanceResult, machine: &Machine) -> Option<Named> {
