@@ -109,7 +109,7 @@ fn skeleton(path: &str, condition: &str) -> &'static str {
         "speed" if condition.contains("measured") => "pulses = \"0, 0.1, 0.2, 0.29, 0.38 s\"",
         "speed" => "profile = \"ramp\"\nto = \"3000 rpm\"\nramp = \"10 s\"",
         "study.campbell" | "study.unbalance" => "speeds = \"0, 600 rpm\"",
-        "study.critical" => "max_speed = \"6000 rpm\"",
+        "study.critical" | "study.critical_map" | "study.torsional" => "max_speed = \"6000 rpm\"",
         "study.frf" => "frequencies = \"1, 2 Hz\"\nexcitation.x = { at = \"station.C\", direction = \"x\" }",
         "study.bifurcation" => "parameter = \"speed\"\nvalues = [\"1000 rpm\", \"2000 rpm\", \"3000 rpm\"]",
         "study.bifurcation.values" => "from = \"1000 rpm\"\nto = \"5000 rpm\"",
