@@ -124,7 +124,7 @@ pub fn torsional(model: &Model, args: &TorsionalArgs) -> Settings {
     draft.set_flag("modes", args.modes.map(|n| n.to_string()));
     draft.set_from("--speed-range", args.speed_range.as_ref(), "operating_speeds", toml_string);
     let top = rpm_or(top_speed(model).map(|top| 1.5 * top), 6000.0);
-    let words = format!("orders {} up to {top}", default("study.torsional.orders"));
+    let words = format!("orders 1 and 2 up to {top}");
     draft.defaults(model.studies.torsional.is_none(), &words, &[("max_speed", toml_string(&top))])
 }
 

@@ -36,7 +36,8 @@ keys! {
     /// `[study.torsional]`.
     static TORSIONAL: TorsionalKeys = "Torsional natural frequencies and the orders that meet them." {
         max_speed: Quantity = quantity(positive(SPEED), "Highest speed.").example("\"6000 rpm\"");
-        orders: Special = special(ORDER, "Orders of the excitation.").default("[1, 2]");
+        orders: Special = special(ORDER, "Orders of the excitation.").computed("1 and 2")
+            .example("[1, 2, 6]");
         modes: Count = count([1, 1000], "Number of modes.").default("6");
         operating_speeds: Spaced = spaced(positive(SPEED), OPERATING_SPEEDS)
             .computed("the highest of [speed]").example("\"2800, 3200 rpm\"");
@@ -60,12 +61,21 @@ pub(super) fn read(all: &Reader, model: &Model, studies: &mut Studies) {
     if let Some(r) = all.table(&ROTOR_STUDY.torsional) {
         studies.torsional = Some(TorsionalStudy {
             max_speed: r.value(&TORSIONAL.max_speed),
-            orders: orders(&r, &TORSIONAL.orders, model),
+            orders: excitation_orders(&r, model),
             modes: r.count(&TORSIONAL.modes),
             operating_speeds: operating_speeds(&r, &TORSIONAL.operating_speeds),
         });
         r.finish();
     }
+}
+
+/// The given orders, else once and twice per revolution.
+fn excitation_orders(r: &Reader, model: &Model) -> Vec<f64> {
+    if r.has(&TORSIONAL.orders) {
+        return orders(r, &TORSIONAL.orders, model);
+    }
+    r.taken_by_default(&TORSIONAL.orders, "1 and 2");
+    vec![1.0, 2.0]
 }
 
 fn critical_map(r: &Reader) -> CriticalMapStudy {
