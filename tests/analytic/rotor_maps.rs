@@ -66,12 +66,16 @@ fn critical_speed_map_between_free_and_pinned_beam() {
     let bending = (2.1e11 * PI / 64.0 * d.powi(4) / (density * area)).sqrt();
     let found = map(&machine, [1e-2, 1e12], 3000.0);
     let last = found.stiffness.len() - 1;
-    // Gyroscopic effect of the shaft, (n π d/4 L)² < 1e-3, and the stiffness against the ends' limits.
+    // Gyroscopic effect of the shaft, (β d)²/16 < 2e-4, and the elasticity of the beam in its rigid-body modes.
     let close = |speed: f64, expected: f64| {
         assert!((speed / expected - 1.0).abs() < 1e-3, "{speed} is not {expected}");
     };
     for n in 1..=4 {
-        close(found.curves[n - 1].speeds[last], (n as f64 * PI).powi(2) * bending);
+        // E I β⁴ = Ω² (ρA − ρ I_p β²) without rotary inertia, I_p/A = d²/8; the elements add (β h)⁴/1440.
+        let beta = n as f64 * PI;
+        let expected = beta * beta * bending / (1.0 - beta * beta * d * d / 8.0).sqrt();
+        let speed = found.curves[n - 1].speeds[last];
+        assert!((speed / expected - 1.0).abs() < 2e-4, "{speed} is not {expected}");
     }
     let mass = density * area;
     close(found.curves[0].speeds[0], (2.0 * 1e-2 / mass).sqrt());
@@ -84,24 +88,24 @@ fn critical_speed_map_between_free_and_pinned_beam() {
     }
 }
 
-/// A disc of 10 kg amid a massless shaft: Ω² = k/m with 1/k = 1/(2 k_b) + L³/(48 E I); also where the curve meets the
+/// A disc of 10 kg amid a light shaft: Ω² = k/m with 1/k = 1/(2 k_b) + L³/(48 E I); also where the curve meets the
 /// bearings' own stiffness.
 #[test]
 fn critical_speed_map_of_jeffcott_rotor() {
-    let mut model = shaft(bars(0.03, 1e-6));
+    let mut model = shaft(bars(0.03, 1.0));
     model.discs = vec![disc(10, 10.0, 0.02, 0.01)];
     let machine = on_springs(model, 5e5);
     let shaft_stiffness = 48.0 * 2.1e11 * PI / 64.0 * 0.03_f64.powi(4);
     let closed = |k: f64| (1.0 / (1.0 / (2.0 * k) + 1.0 / shaft_stiffness) / 10.0).sqrt();
     let found = map(&machine, [1e3, 1e9], 600.0);
     for (k, speed) in found.stiffness.iter().zip(&found.curves[0].speeds) {
-        // The mass of the shaft is 1e-10 of the disc's.
-        assert!((speed / closed(*k) - 1.0).abs() < 1e-6, "{k}: {speed} {}", closed(*k));
+        // The mass of the shaft is 7e-5 of the disc's, of which 1/2 counts at most.
+        assert!((speed / closed(*k) - 1.0).abs() < 4e-5, "{k}: {speed} {}", closed(*k));
     }
     let crossing = found.crossings.iter().find(|c| c.mode == found.curves[0].label).unwrap();
     assert_eq!(crossing.bearing, "A x, A y, B x, B y");
     assert!((crossing.stiffness / 5e5 - 1.0).abs() < 1e-8, "{crossing:?}");
-    assert!((crossing.speed / closed(5e5) - 1.0).abs() < 1e-6, "{crossing:?}");
+    assert!((crossing.speed / closed(5e5) - 1.0).abs() < 4e-5, "{crossing:?}");
 }
 
 /// A rigid rotor on cross-coupled bearings k_xy = −k_yx = κΩ: m s² + c s + k − j κΩ = 0, unstable above c √(k/m)/κ.
@@ -144,7 +148,7 @@ fn log_decrement_on_cross_coupled_bearings() {
 #[test]
 fn torsion_of_two_discs() {
     let model = |drive: Option<usize>| {
-        let mut model = shaft(bars(0.02, 1e-6));
+        let mut model = shaft(bars(0.02, 1.0));
         model.discs = vec![disc(0, 5.0, 0.04, 0.02), disc(20, 5.0, 0.09, 0.05)];
         let end = |node: usize, z: f64, axial: bool| Joint {
             name: format!("pin {node}"),
@@ -167,7 +171,7 @@ fn torsion_of_two_discs() {
         let found = model(drive).torsional(&study).unwrap();
         let omega = square.sqrt();
         let mode = &found.found.modes[0];
-        // The shaft has 1e-9 of the inertia.
+        // The shaft has 4e-7 of the smaller inertia.
         assert!((TAU * mode.frequency_hz / omega - 1.0).abs() < 1e-6, "{mode:?} {omega}");
         assert_eq!((found.found.rigid_rotations, found.found.coupled), (rigid, false));
         // The twists of the discs balance: J₁ θ₁ + J₂ θ₂ = 0.

@@ -119,6 +119,7 @@ fn skeleton(path: &str, condition: &str) -> &'static str {
         "study.bearing.skidding_loads" => "from = \"10 N\"\nto = \"400 N\"\ncount = 5",
         "study.bearing.skidding_speeds" => "from = \"1000 rpm\"\nto = \"9000 rpm\"\ncount = 5",
         "study.bearing.cage_angles" => "from = \"0 deg\"\nto = \"20 deg\"\ncount = 5",
+        path if path.ends_with(".operating_speeds") => "from = \"900 rpm\"\nto = \"1200 rpm\"\ncount = 2",
         path if path.ends_with(".speeds") => "from = \"0 rpm\"\nto = \"1200 rpm\"\ncount = 5",
         _ => "",
     }

@@ -35,7 +35,7 @@ impl CriticalMap {
             .cells_over(0, "own_rpm");
         let crossings = Rows::of(&self.crossings)
             .heading("Crossings with the bearings' own stiffness")
-            .number(named("speed_rpm", "rpm"), "rpm", |c| c.speed * TO_RPM)
+            .number(named("speed_rpm", "speed"), "rpm", |c| c.speed * TO_RPM)
             .text("mode", |c| &c.mode)
             .text("bearing", |c| &c.bearing)
             .quantity("stiffness", "N/m", |c| c.stiffness);
