@@ -354,7 +354,7 @@ mod tests {
             campbell(&model, None, None),
             critical(&model, None, &[]),
             frf(&model, None, None, None),
-            unbalance(&model, None),
+            unbalance(&model, None, None),
             run_up(&model, None, None, None, None, None),
             spectrogram(&model, &stored),
             orders(&model, &stored),
