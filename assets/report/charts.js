@@ -7,8 +7,12 @@ const CURVE_COLOURS = ["blue", "red", "ink", "green", "purple", "orange"];
 const DASHES = ["solid", "longdash", "dashdot", "dot"];
 const WHIRL = { forward: ["blue", "triangle-up"], backward: ["red", "triangle-down"], torsional: ["green", "diamond"], axial: ["purple", "square"] };
 
+/** Width of a printed page between its margins, 182 mm, in CSS pixels. */
+const PRINTED_WIDTH = 688;
+
 const charts = [];
 let darkNow = false;
+let printing = false;
 
 function colours() {
   return darkNow ? DARK : LIGHT;
@@ -59,6 +63,9 @@ function chart(caption, height, draw, { click } = {}) {
       paper_bgcolor: c.paper, plot_bgcolor: c.paper, font: { family: "system-ui, sans-serif", size: 13, color: c.ink },
       margin: { l: 70, r: 20, t: 36, b: 48 }, hovermode: "closest", legend: { orientation: "h", y: 1.02, yanchor: "bottom", x: 0 },
       hoverlabel: { bgcolor: c.paper, bordercolor: c.muted, font: { color: c.ink } }, modebar: { color: c.muted, activecolor: c.blue }, ...layout,
+      // A cursor at a value that was not computed is not drawn.
+      shapes: (layout.shapes ?? []).filter((shape) => Number.isFinite(shape.x0)),
+      ...(printing ? { width: PRINTED_WIDTH } : {}),
     };
     const config = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["select2d", "lasso2d"] };
     return Plotly.react(plot, data, full, config);
@@ -89,6 +96,24 @@ function setDark(dark) {
   document.documentElement.dataset.theme = dark ? "dark" : "light";
   charts.forEach((made) => made.update());
   document.dispatchEvent(new Event("themechange"));
+}
+
+/** For paper: light, every chart drawn as wide as the page, values of the model open; then as it was. */
+function fitPaper() {
+  const opened = [];
+  let before = false;
+  addEventListener("beforeprint", () => {
+    before = darkNow;
+    printing = true;
+    charts.forEach((made) => made.draw());
+    setDark(false);
+    document.querySelectorAll("details.printed:not([open])").forEach((part) => { part.open = true; opened.push(part); });
+  });
+  addEventListener("afterprint", () => {
+    printing = false;
+    opened.splice(0).forEach((part) => { part.open = false; });
+    setDark(before);
+  });
 }
 
 /** Amplitude and phase of pairs (re, im). */

@@ -33,8 +33,24 @@ class Results {
     return path.split("/").filter(Boolean).reduce((node, name) => node?.groups?.[name], this.root);
   }
 
-  names(path) {
-    return Object.keys(this.group(path)?.groups ?? {});
+  /** Names of the items below a group: groups with a set or group `marks`; a name with a slash is a path of groups. */
+  items(path, ...marks) {
+    const inside = (node, name) =>
+      Object.entries(node?.groups ?? {}).flatMap(([part, child]) => {
+        const full = name ? `${name}/${part}` : part;
+        const isItem = marks.some((mark) => child.sets?.[mark] || child.groups?.[mark]);
+        return [...(isItem ? [full] : []), ...inside(child, full)];
+      });
+    return inside(this.group(path), "");
+  }
+
+  /** Names of the data sets below a group. */
+  setNames(path) {
+    const inside = (node, name) => [
+      ...Object.keys(node?.sets ?? {}).map((set) => name + set),
+      ...Object.entries(node?.groups ?? {}).flatMap(([part, child]) => inside(child, `${name}${part}/`)),
+    ];
+    return inside(this.group(path), "");
   }
 
   /** Attribute of a group. */

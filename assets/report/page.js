@@ -11,7 +11,7 @@ function sections(results, head) {
     ["critical", "Critical speeds", !has("campbell/frequency") && has("critical_speeds/rpm"), () => criticalView(results)],
     ["frf", "Frequency responses", has("frf/response"), () => frfView(results)],
     ["unbalance", "Unbalance response", has("unbalance/rpm"), () => unbalanceView(results)],
-    ["spectra", "Run-up: spectra and orders", results.names("spectra").length > 0, () => spectraView(results)],
+    ["spectra", "Run-up: spectra and orders", results.items("spectra", ...MAPS).length > 0, () => spectraView(results)],
     ["history", "Run-up: time histories", head.history?.channels.length > 0, () => historyView(results, head.history)],
     ["figures", "Further figures", head.figures.length > 0, () => head.figures.map(staticFigure)],
     ["results", "All results", true, () => allResults(results)],
@@ -35,7 +35,7 @@ function modeTables(results) {
 }
 
 function staticFigure({ caption, svg }) {
-  const image = make("img", { alt: caption, src: `data:image/svg+xml;base64,${btoa(unescape(encodeURIComponent(svg)))}`, loading: "lazy" });
+  const image = make("img", { alt: caption, src: `data:image/svg+xml;base64,${btoa(unescape(encodeURIComponent(svg)))}` });
   return make("figure", { class: "chart static" }, image, make("figcaption", {}, caption));
 }
 
@@ -94,9 +94,7 @@ function themeButton() {
   button.addEventListener("click", () => apply(!darkNow));
   wanted.addEventListener("change", (event) => apply(event.matches));
   apply(wanted.matches);
-  let before = false;
-  addEventListener("beforeprint", () => { before = darkNow; setDark(false); charts.forEach((made) => made.draw()); });
-  addEventListener("afterprint", () => setDark(before));
+  fitPaper();
   document.getElementById("print").addEventListener("click", () => print());
 }
 

@@ -64,8 +64,8 @@ function frfView(results) {
 /** Unbalance response over speed, with the orbits at the cursor. */
 function unbalanceView(results) {
   const rpm = Array.from(results.values("unbalance/rpm"));
-  const names = Object.keys(results.group("unbalance/channels")?.sets ?? {});
-  const orbitNames = results.names("unbalance/orbits");
+  const names = results.setNames("unbalance/channels");
+  const orbitNames = results.items("unbalance/orbits", "x");
   const shown = { channels: new Set(names.slice(0, 2)), at: rpm.length - 1 };
   const set = (name) => results.set(`unbalance/channels/${name}`);
   const draw = () => {

@@ -11,9 +11,12 @@ function frameAxis(rpm, time) {
   return { values: time, kept: rpm.map((_, k) => k), title: "time [s]", unit: "s" };
 }
 
+/** Maps that a channel may have. */
+const MAPS = ["spectrogram", "orders"];
+
 /** Spectrogram and order map of one channel with the spectrum at the cursor. */
 function spectraView(results) {
-  const names = results.names("spectra");
+  const names = results.items("spectra", ...MAPS);
   const kinds = [["spectrogram", "frequency", "Hz"], ["orders", "order", "1/revolution"]].filter(([kind]) => names.some((n) => results.group(`spectra/${n}/${kind}`)));
   const shown = { channel: 0, kind: 0, at: 0, lines: true };
   const data = () => {

@@ -22,8 +22,9 @@ function shapeViewer(results, machine) {
     holder.replaceChildren(make("p", {}, `This browser cannot show moving shapes (WebGL: ${error.message}). The drawn shapes are among the figures below.`));
   }
   const show = (shape, words) => {
-    scene?.set(shape);
-    says.textContent = words;
+    const isComputed = shape.every(Number.isFinite);
+    scene?.set(isComputed ? shape : new Float64Array(shape.length));
+    says.textContent = isComputed ? words : `${words}; its shape was not computed`;
   };
   const size = (set) => set.shape[2] * 12;
   const showBranch = (branch, speed) => {

@@ -6,6 +6,7 @@ mod init;
 pub mod keys;
 mod manual;
 mod measured;
+mod rotor;
 mod steady;
 mod update;
 
@@ -25,6 +26,7 @@ pub use bearing::BearingArgs;
 pub use init::{InitArgs, STARTERS};
 use manual::{AFTER_HELP, LONG_ABOUT};
 pub use measured::{EstimatorName, IdentifyArgs, NoiseArgs, ShaftArgs};
+pub use rotor::{CriticalMapArgs, TorsionalArgs};
 pub use steady::{BifurcationArgs, PoincareArgs, SteadyArgs};
 pub use update::{FitResidual, MeasuredArgs, UpdateArgs, ValidateArgs};
 
@@ -196,6 +198,20 @@ Examples:
         orders: Vec<String>,
     },
 
+    /// Undamped critical speed map: critical speeds over bearing stiffness, with the bearings' own over speed
+    ///
+    /// All bearings get the same radial stiffness; forward modes. Default without [study.critical_map]: up to three
+    /// times the highest speed of [speed], else 6000 rpm; stiffness a decade and more around that of the bearings.
+    #[command(after_long_help = rotor::CRITICAL_MAP)]
+    CriticalMap(CriticalMapArgs),
+
+    /// Torsional natural frequencies, their mode shapes and the orders that meet them (interference diagram)
+    ///
+    /// Undamped rotation of the shaft with its discs. Default without [study.torsional]: orders 1 and 2 up to 1.5 times
+    /// the highest speed of [speed], else 6000 rpm.
+    #[command(after_long_help = rotor::TORSIONAL)]
+    Torsional(TorsionalArgs),
+
     /// Frequency response functions at a fixed speed
     ///
     /// Response of every probe to every excitation, solved directly at each frequency. Default without
@@ -227,17 +243,21 @@ Examples:
     ///
     /// Default without [study.unbalance]: 200 speeds up to 1.5 times the highest of [speed], else 6000 rpm.
     /// Speeds are added around the critical speeds (refine = false: none). Every peak is listed with its
-    /// amplification factor, and its separation from the highest speed of [speed] as in API 617.
+    /// amplification factor, every critical speed with log decrement and separation margin from the operating
+    /// speeds as in API 617; bearing forces over speed; bending moment along the shaft where it is largest.
     #[command(after_long_help = "\
 Examples:
   rotordyn unbalance models/jeffcott.toml
-  rotordyn unbalance models/jeffcott.toml --max-speed \"6000 rpm\"")]
+  rotordyn unbalance models/jeffcott.toml --max-speed \"6000 rpm\"
+  rotordyn unbalance models/jeffcott.toml --speed-range \"2800, 3200 rpm\"")]
     Unbalance {
         #[command(flatten)]
         study: StudyArgs,
         /// Highest speed, such as "6000 rpm"; 200 speeds
         #[arg(long, value_name = "SPEED")]
         max_speed: Option<String>,
+        #[arg(long, value_name = "SPEEDS", help = key_help("study.unbalance.operating_speeds"))]
+        speed_range: Option<String>,
     },
 
     /// Nonlinear transient run-up through the speed profile, one Hertz contact per ball

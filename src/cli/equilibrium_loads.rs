@@ -1,10 +1,15 @@
-//! Belt pull and bearing preload in the assembled machine beside the stated ones.
+//! Loads at static equilibrium: belt pull and bearing preload beside the stated ones, loads along the shaft.
 
 use rotordyn::analysis::belt_pull::BeltPull;
+use rotordyn::analysis::equilibrium::Equilibrium;
 use rotordyn::analysis::preload::MountedPreload;
+use rotordyn::analysis::shaft_loads::ShaftPoint;
 use rotordyn::bearing::Preload;
 
 use super::terminal::{Terminal, number};
+
+/// Forces of supports smaller than this fraction of the largest are round-off.
+const ROUND_OFF: f64 = 1e-9;
 
 /// Pull of the belts at equilibrium beside the stated one.
 pub fn belts(terminal: &Terminal, found: &[BeltPull]) {
@@ -58,5 +63,43 @@ pub fn stated(preload: &Preload) -> String {
                 interference.map_or(String::new(), |i| format!(" by interference {} um", micrometres(i)));
             format!("mounted_force {} N at standstill{by}", newton(force))
         }
+    }
+}
+
+/// Where along the shaft deflection and section loads are largest, and the forces of its supports.
+pub fn shaft(terminal: &Terminal, found: &Equilibrium) {
+    if found.shaft.is_empty() {
+        return;
+    }
+    let norm = |v: [f64; 2]| v[0].hypot(v[1]);
+    let rows: Vec<Vec<String>> = [
+        ("deflection um", ShaftPoint::largest(&found.shaft, |p| 1e6 * norm(p.displacement))),
+        ("shear force N", ShaftPoint::largest(&found.shaft, |p| norm(p.shear))),
+        ("bending moment N m", ShaftPoint::largest(&found.shaft, |p| norm(p.moment))),
+        ("bending stress MPa", ShaftPoint::largest(&found.shaft, |p| 1e-6 * p.stress)),
+    ]
+    .into_iter()
+    .filter_map(|(name, largest)| {
+        let (point, value) = largest?;
+        Some(vec![name.into(), number(value, 4), format!("{:.1}", 1e3 * point.z)])
+    })
+    .collect();
+    terminal.table("Shaft at rest: largest deflection and loads", &["", "largest", "at z mm"], &rows);
+    let all = found.support_forces.iter().flat_map(|r| r.force);
+    let largest = all.fold(0.0, |most: f64, f| most.max(f.abs()));
+    let rows: Vec<Vec<String>> = found
+        .support_forces
+        .iter()
+        .map(|r| {
+            let mut row = vec![r.name.clone(), format!("{:.1}", 1e3 * r.z)];
+            // Differences of section loads have their round-off.
+            let shown = |f: f64| if f.abs() < ROUND_OFF * largest { 0.0 } else { f };
+            row.extend(r.force[..5].iter().map(|f| number(shown(*f), 4)));
+            row
+        })
+        .collect();
+    if !rows.is_empty() {
+        let header = ["support", "z mm", "F_x N", "F_y N", "F_z N", "M_x N m", "M_y N m"];
+        terminal.table("Forces of the supports on the shaft at rest", &header, &rows);
     }
 }

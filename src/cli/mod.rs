@@ -40,6 +40,7 @@ mod printed;
 mod renamed;
 mod report_page;
 mod resumed_run;
+mod rotor_tables;
 mod run_identity;
 mod run_up;
 mod run_up_correlation;
@@ -57,6 +58,7 @@ mod system;
 mod tables;
 mod terminal;
 mod trend;
+mod unbalance_tables;
 mod update;
 mod validate;
 
@@ -160,6 +162,12 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Critical { study, max_speed, orders } => {
             run_one(study, Study::Critical, &|model| settings::critical(model, max_speed.as_ref(), orders))
         }
+        Command::CriticalMap(args) => {
+            run_one(&args.study, Study::CriticalMap, &|model| settings::critical_map(model, args))
+        }
+        Command::Torsional(args) => {
+            run_one(&args.study, Study::Torsional, &|model| settings::torsional(model, args))
+        }
         Command::Frf { study, speed, max_frequency, quantity, test } => {
             let settings = |model: &Model| {
                 settings::frf(model, speed.as_ref(), max_frequency.as_ref(), quantity.as_ref())
@@ -169,9 +177,9 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
             noisy_frf::run(study, test, &settings, terminal)?;
             Ok(outcome)
         }
-        Command::Unbalance { study, max_speed } => {
-            run_one(study, Study::Unbalance, &|model| settings::unbalance(model, max_speed.as_ref()))
-        }
+        Command::Unbalance { study, max_speed, speed_range } => run_one(study, Study::Unbalance, &|model| {
+            settings::unbalance(model, max_speed.as_ref(), speed_range.as_ref())
+        }),
         Command::RunUp { study, step, integrator, sample_rate, motion_rate, cage_phases, checkpoints } => {
             resumable(study, checkpoints, Study::RunUp, &|model| {
                 let [step, integrator, rate, motion] =

@@ -87,11 +87,12 @@ pub(super) fn collect_warnings(job: &mut Job, studies: &[Study]) {
     }
 }
 
-/// Prints the list of written files, wrapped to the line width.
+/// Prints the list of written files, wrapped to the line width, and last the page of all results.
 pub(super) fn print_written_files(terminal: &Terminal, folder: &Path, files: &[PathBuf]) {
     terminal.heading(&format!("Written to {}", folder.display()));
     let mut line = String::from(" ");
-    for file in files {
+    let is_page = |file: &&PathBuf| file.ends_with(super::report_page::FILE);
+    for file in files.iter().filter(|file| !is_page(file)) {
         let name = file.strip_prefix(folder).unwrap_or(file).display().to_string();
         if line.len() + name.len() > 98 {
             terminal.print(&line);
@@ -100,7 +101,12 @@ pub(super) fn print_written_files(terminal: &Terminal, folder: &Path, files: &[P
         line.push(' ');
         line.push_str(&name);
     }
-    terminal.print(&line);
+    if !line.trim().is_empty() {
+        terminal.print(&line);
+    }
+    if let Some(page) = files.iter().find(is_page) {
+        terminal.print(&format!("  page of all results, to open first: {}", page.display()));
+    }
 }
 
 /// Prints the warnings and hints of the model file.

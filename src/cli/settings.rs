@@ -8,7 +8,7 @@ use rotordyn::model::study::SweepVariable;
 use rotordyn::model::{Drive, Model, SpeedProfile, Station, keys};
 
 use super::args::keys::{default, default_words};
-use super::args::{BearingArgs, StoredArgs};
+use super::args::{BearingArgs, CriticalMapArgs, StoredArgs, TorsionalArgs};
 use super::failure::Failure;
 
 /// Settings of one study, and a note to the user.
@@ -107,6 +107,27 @@ pub fn critical(model: &Model, max_speed: Option<&String>, orders: &[String]) ->
     draft.defaults(model.studies.critical.is_none(), &words, &[("max_speed", toml_string(&top))])
 }
 
+pub fn critical_map(model: &Model, args: &CriticalMapArgs) -> Settings {
+    let mut draft = SettingsBuilder::new("critical_map");
+    draft.set_flag("max_speed", args.max_speed.as_ref().map(|text| toml_string(text)));
+    draft.set_flag("lowest_stiffness", args.lowest_stiffness.as_ref().map(|text| toml_string(text)));
+    draft.set_flag("highest_stiffness", args.highest_stiffness.as_ref().map(|text| toml_string(text)));
+    let top = rpm_or(top_speed(model).map(|top| 3.0 * top), 6000.0);
+    let words = format!("up to {top}");
+    draft.defaults(model.studies.critical_map.is_none(), &words, &[("max_speed", toml_string(&top))])
+}
+
+pub fn torsional(model: &Model, args: &TorsionalArgs) -> Settings {
+    let mut draft = SettingsBuilder::new("torsional");
+    draft.set_flag("max_speed", args.max_speed.as_ref().map(|text| toml_string(text)));
+    draft.set_flag("orders", toml_array(&args.orders));
+    draft.set_flag("modes", args.modes.map(|n| n.to_string()));
+    draft.set_from("--speed-range", args.speed_range.as_ref(), "operating_speeds", toml_string);
+    let top = rpm_or(top_speed(model).map(|top| 1.5 * top), 6000.0);
+    let words = format!("orders 1 and 2 up to {top}");
+    draft.defaults(model.studies.torsional.is_none(), &words, &[("max_speed", toml_string(&top))])
+}
+
 pub fn frf(
     model: &Model,
     speed: Option<&String>,
@@ -128,8 +149,9 @@ pub fn frf(
     draft.defaults(model.studies.frf.is_none(), &words, &[("frequencies", sweep("500 Hz"))])
 }
 
-pub fn unbalance(model: &Model, max_speed: Option<&String>) -> Settings {
+pub fn unbalance(model: &Model, max_speed: Option<&String>, speed_range: Option<&String>) -> Settings {
     let mut draft = SettingsBuilder::new("unbalance");
+    draft.set_from("--speed-range", speed_range, "operating_speeds", toml_string);
     draft.set_from("--max-speed", max_speed, "speeds", |top| sweep("1 rpm", top, 200));
     let top = rpm_or(top_speed(model).map(|top| 1.5 * top), 6000.0);
     let words = format!("200 speeds up to {top}");
@@ -332,7 +354,7 @@ mod tests {
             campbell(&model, None, None),
             critical(&model, None, &[]),
             frf(&model, None, None, None),
-            unbalance(&model, None),
+            unbalance(&model, None, None),
             run_up(&model, None, None, None, None, None),
             spectrogram(&model, &stored),
             orders(&model, &stored),

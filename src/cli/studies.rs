@@ -17,7 +17,7 @@ use super::report_page::ModelValues;
 use super::store::Output;
 use super::system::cpu_seconds;
 use super::terminal::Terminal;
-use super::{free_ball_runs, interrupt, tables};
+use super::{free_ball_runs, interrupt, rotor_tables, tables};
 
 /// One study of a model file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +26,8 @@ pub enum Study {
     Modal,
     Campbell,
     Critical,
+    CriticalMap,
+    Torsional,
     Frf,
     Unbalance,
     RunUp,
@@ -38,11 +40,13 @@ pub enum Study {
 }
 
 impl Study {
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 15] = [
         Self::Static,
         Self::Modal,
         Self::Campbell,
         Self::Critical,
+        Self::CriticalMap,
+        Self::Torsional,
         Self::Frf,
         Self::Unbalance,
         Self::RunUp,
@@ -61,6 +65,8 @@ impl Study {
             Self::Modal => "modal",
             Self::Campbell => "campbell",
             Self::Critical => "critical",
+            Self::CriticalMap => "critical-map",
+            Self::Torsional => "torsional",
             Self::Frf => "frf",
             Self::Unbalance => "unbalance",
             Self::RunUp => "run-up",
@@ -83,6 +89,7 @@ impl Study {
             Self::Modal => studies.modal.as_ref().map(|s| s.speeds.clone()),
             Self::Campbell => studies.campbell.as_ref().map(|s| s.speeds.clone()),
             Self::Critical => studies.critical.as_ref().map(|s| vec![0.0, s.max_speed]),
+            Self::CriticalMap => studies.critical_map.as_ref().map(|s| vec![0.0, s.max_speed]),
             Self::Frf => studies.frf.as_ref().map(|s| vec![s.speed]),
             Self::Unbalance => studies.unbalance.as_ref().map(|s| s.speeds.clone()),
             Self::RunUp => {
@@ -92,7 +99,7 @@ impl Study {
             Self::Poincare => studies.poincare.as_ref().map(|s| vec![s.steady.speed]),
             Self::Lyapunov => studies.lyapunov.as_ref().map(|s| vec![s.steady.speed]),
             Self::Bifurcation => studies.bifurcation.as_ref().map(|s| vec![s.steady.speed]),
-            Self::Spectrogram | Self::Orders | Self::Bearing => None,
+            Self::Torsional | Self::Spectrogram | Self::Orders | Self::Bearing => None,
         };
         found.unwrap_or_default()
     }
@@ -104,6 +111,8 @@ impl Study {
             Self::Modal => studies.modal.is_some(),
             Self::Campbell => studies.campbell.is_some(),
             Self::Critical => studies.critical.is_some(),
+            Self::CriticalMap => studies.critical_map.is_some(),
+            Self::Torsional => studies.torsional.is_some(),
             Self::Frf => studies.frf.is_some(),
             Self::Unbalance => studies.unbalance.is_some(),
             Self::RunUp => studies.run_up.is_some(),
@@ -273,6 +282,22 @@ impl<'a> Job<'a> {
                     spinner.finish_and_clear();
                     tables::critical(terminal, &found);
                     self.results.critical = Some(found);
+                }
+            }
+            Study::CriticalMap => {
+                if let Some(settings) = &studies.critical_map {
+                    let found = machine.critical_map(settings)?;
+                    spinner.finish_and_clear();
+                    rotor_tables::critical_map(terminal, &found);
+                    self.results.critical_map = Some(found);
+                }
+            }
+            Study::Torsional => {
+                if let Some(settings) = &studies.torsional {
+                    let found = machine.torsional(settings)?;
+                    spinner.finish_and_clear();
+                    rotor_tables::torsional(terminal, &found);
+                    self.results.torsional = Some(found);
                 }
             }
             Study::Frf => {

@@ -14,7 +14,9 @@ use rotordyn::series::SeriesError;
 
 use super::equilibrium_loads;
 use super::printed;
+use super::rotor_tables;
 use super::terminal::{Terminal, number, rpm};
+use super::unbalance_tables;
 
 /// Largest number of rows printed; the rest is in results.h5.
 const MAX_ROWS: usize = 40;
@@ -26,6 +28,7 @@ pub fn equilibrium(terminal: &Terminal, found: &Equilibrium) {
     };
     equilibrium_loads::belts(terminal, &found.belts);
     equilibrium_loads::preloads(terminal, &found.preloads);
+    equilibrium_loads::shaft(terminal, found);
     if found.bearings.is_empty() {
         terminal.heading("Static equilibrium: the machine has only joints and springs, no bearings");
         return;
@@ -157,6 +160,7 @@ pub fn campbell(terminal: &Terminal, found: &CampbellResult) {
             rpm(*last)
         ));
     }
+    rotor_tables::stability(terminal, found);
     for threshold in &found.thresholds {
         let side = if threshold.unstable_above { "above" } else { "below" };
         terminal.print(&format!(
@@ -280,6 +284,9 @@ pub fn unbalance(terminal: &Terminal, found: &UnbalanceResult) {
     let title = format!("Unbalance response (1x) over {given} speeds{added}: peak amplitudes");
     terminal.table(&title, &["response", "at rpm", "amplitude", "unit"], &rows);
     unbalance_peaks(terminal, found);
+    unbalance_tables::margins(terminal, found);
+    unbalance_tables::bearing_forces(terminal, found);
+    unbalance_tables::shaft(terminal, found);
 }
 
 /// Resonance peaks with amplification factors and separation margins.
@@ -303,7 +310,7 @@ fn unbalance_peaks(terminal: &Terminal, found: &UnbalanceResult) {
                 text(peak.amplification(), 2),
                 half_power.map_or("-".into(), |[low, high]| format!("{low:.1} to {high:.1}")),
             ];
-            if let Some(speed) = found.operating_speed {
+            if let Some(speed) = found.operating_speeds {
                 row.push(percent(Some(peak.separation(speed))));
                 row.push(percent(peak.required_separation(speed)));
             }
@@ -313,18 +320,11 @@ fn unbalance_peaks(terminal: &Terminal, found: &UnbalanceResult) {
     let count = rows.len();
     rows.truncate(MAX_ROWS);
     let mut header = vec!["response", "peak rpm", "amplitude", "unit", "AF", "half power rpm"];
-    if found.operating_speed.is_some() {
+    if found.operating_speeds.is_some() {
         header.extend(["margin %", "required %"]);
     }
     terminal.table("Resonance peaks: amplification factor AF", &header, &rows);
     print_omitted_count(terminal, count);
-    if let Some(speed) = found.operating_speed {
-        let note = format!(
-            "  margin: separation from {:.0} rpm, the highest speed of the profile; required by API 617",
-            rpm(speed)
-        );
-        terminal.print(&note);
-    }
 }
 
 pub fn run_up(terminal: &Terminal, found: &RunUpResult, check_seconds: f64) {

@@ -16,5 +16,7 @@ mod large_shaft;
 mod precession;
 mod responses;
 mod rigid_rotor;
+mod rotor_maps;
 mod shaft_limits;
+mod shaft_loads;
 mod unbalance_phase;

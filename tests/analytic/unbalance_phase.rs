@@ -117,8 +117,14 @@ fn unbalance_response_phase_of_two_unbalances() {
         let [left, right] = [at(-0.12), at(0.18)];
 
         let responses = machine.model.probes.clone();
-        let linear =
-            machine.unbalance(&UnbalanceStudy { speeds: vec![speed], refine: false, responses }).unwrap();
+        let linear = machine
+            .unbalance(&UnbalanceStudy {
+                speeds: vec![speed],
+                refine: false,
+                responses,
+                operating_speeds: None,
+            })
+            .unwrap();
         let y_from_x = C::new(0.0, -1.0);
         let expected = [left, left * y_from_x, right, right * y_from_x];
         for (channel, expected) in linear.channels.iter().zip(expected) {

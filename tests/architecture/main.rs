@@ -34,7 +34,7 @@ const OWNERS: [(&[&str], &[&str]); 13] = [
     (&["rapier3d", "rapier3d_f64"], &["rotordyn-core/geometry/rapier"]),
     (&["parry3d", "parry3d_f64"], &["rotordyn-core/geometry/parry"]),
     (&["hdf5"], &["rotordyn-io/hdf5"]),
-    (&["flate2"], &["rotordyn-io/inflate"]),
+    (&["flate2"], &["rotordyn-io/inflate", "rotordyn-report/arrays"]),
     (&["rmp_serde"], &["rotordyn-io/saved_results", "rotordyn-io/hdf5"]),
     (&["serde_path_to_error"], &["rotordyn-io/saved_results"]),
     (&["zip"], &["rotordyn-io/npy"]),
@@ -46,7 +46,7 @@ const OWNERS: [(&[&str], &[&str]); 13] = [
 ];
 
 /// Crates that access files; all others compute.
-const WITH_FILES: [&str; 3] = ["rotordyn-io", "rotordyn-model", "rotordyn-plot"];
+const WITH_FILES: [&str; 4] = ["rotordyn-io", "rotordyn-model", "rotordyn-plot", "rotordyn-report"];
 
 const MAX_LINES: usize = 500;
 

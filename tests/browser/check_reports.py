@@ -1,6 +1,7 @@
 """Opens report pages in headless Chromium and checks what a reader would.
 
     check_reports.py CHROMIUM PAGE RESULTS [PAGE RESULTS ...] [--shots FOLDER]
+    check_reports.py --only-open CHROMIUM PAGE [PAGE ...]
 
 Prints a line for every page and every fault; exit code 1 with faults.
 """
@@ -14,6 +15,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import sync_playwright
 
 FLAGS = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+PRINTED_WIDTH = 688  # 182 mm, A4 between its margins
 HOVER_DIGITS = 5e-5  # half a unit of the fifth digit
 
 
@@ -32,6 +34,7 @@ def open_page(browser, path, faults, **options):
     page.on("console", lambda message: faults.unless(message.type != "error", f"console: {message.text}"))
     page.on("pageerror", lambda error: faults.unless(False, f"script: {error}"))
     local = ("file:", "data:", "blob:")
+    page.on("dialog", lambda dialog: (faults.unless(False, f"dialog: {dialog.message[:60]}"), dialog.dismiss()))
     page.on("request", lambda request: faults.unless(request.url.startswith(local), f"request: {request.url[:100]}"))
     page.goto(path.as_uri())
     page.wait_for_selector("body[data-ready]", timeout=120_000)
@@ -52,16 +55,18 @@ def check_curves(page, faults):
 
 
 def hover(page, chart, curve, point):
-    """What hovering over a point of a curve says."""
-    return page.evaluate(
-        """([chart, curve, point]) => new Promise((resolve) => {
+    """The text of the label at a point of a curve."""
+    page.evaluate(
+        """([chart, curve, point]) => {
             const plot = charts[chart].plot;
-            plot.once("plotly_hover", (event) => resolve(event.points.map((p) => [p.x, p.y])));
-            const trace = plot.data[curve];
-            Plotly.Fx.hover(plot, [{ curveNumber: curve, pointNumber: point }], trace.yaxis === "y2" ? "xy2" : "xy");
-        }).then((points) => [points, [...charts[chart].plot.querySelectorAll(".hovertext")].map((t) => t.textContent).join(" ")])""",
+            const axes = plot.data[curve].yaxis === "y2" ? "xy2" : "xy";
+            Plotly.Fx.hover(plot, [{ curveNumber: curve, pointNumber: point }], axes);
+        }""",
         [chart, curve, point],
     )
+    label = page.locator(".hovertext tspan, .hovertext text:not(:has(tspan))")
+    label.first.wait_for(state="attached", timeout=5_000)
+    return " ".join(label.all_text_contents())
 
 
 def chart_index(page, words):
@@ -89,13 +94,13 @@ def check_hovers(page, results, faults):
         frequency = results["campbell/frequency"][()]
         chart = chart_index(page, "Campbell diagram:")
         branch, speed = 0, frequency.shape[1] // 2
-        _, text = hover(page, chart, 2 * branch, speed)
+        text = hover(page, chart, 2 * branch, speed)
         faults.unless(says(text, frequency[branch, speed]), f"Campbell hover says {text!r}, file {frequency[branch, speed]}")
         checked += 1
     if "frf/response" in results:
         response = results["frf/response"][0, 0]
         point = len(response) // 3
-        _, text = hover(page, chart_index(page, "Frequency response functions of"), 0, point)
+        text = hover(page, chart_index(page, "Frequency response functions of"), 0, point)
         faults.unless(says(text, abs(response[point])), f"FRF hover says {text!r}, file {abs(response[point])}")
         checked += 1
     if "unbalance/channels" in results:
@@ -104,7 +109,7 @@ def check_hovers(page, results, faults):
         unit = values.attrs["unit"]
         factor = {"m": 1e6, "m/s": 1e3}.get(unit if isinstance(unit, str) else unit.decode(), 1.0)
         point = len(values) // 2
-        _, text = hover(page, chart_index(page, "Response to unbalance:"), 0, point)
+        text = hover(page, chart_index(page, "Response to unbalance:"), 0, point)
         expected = factor * abs(values[point])
         faults.unless(says(text, expected), f"unbalance hover says {text!r}, file {expected}")
         checked += 1
@@ -165,6 +170,24 @@ def check_accessibility(page, faults):
             faults.unless(False, f"axe {violation['id']} ({violation['impact']}, {len(violation['nodes'])}): {where}")
 
 
+def check_print(page, faults):
+    """On paper nothing is wider than the page, every figure is loaded, tables keep their headings."""
+    page.emulate_media(media="print")
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    page.wait_for_function("[...document.images].every((image) => image.complete && image.naturalWidth > 0)", timeout=20_000)
+    wide = page.evaluate(
+        """(width) => [...document.querySelectorAll(".plot .main-svg, img, table")]
+            .filter((e) => e.checkVisibility() && e.getBoundingClientRect().width > width + 2)
+            .map((e) => e.outerHTML.slice(0, 80))""",
+        PRINTED_WIDTH,
+    )
+    faults.unless(not wide, f"wider than a printed page: {wide[:3]}")
+    hidden = page.evaluate("[...document.querySelectorAll('th .sort')].filter((e) => e.closest('details') === null && !e.checkVisibility()).length")
+    faults.unless(hidden == 0, f"{hidden} headings of tables are not printed")
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    page.emulate_media(media="screen")
+
+
 def check(browser, path, results_path, shots):
     faults = Faults(path)
     page = open_page(browser, path, faults, viewport={"width": 1280, "height": 900})
@@ -178,10 +201,32 @@ def check(browser, path, results_path, shots):
     page.locator("#theme").click()
     page.wait_for_timeout(300)
     check_accessibility(page, faults)
+    page.set_viewport_size({"width": PRINTED_WIDTH, "height": 1000})
+    check_print(page, faults)
     if shots:
         take_shots(browser, path, faults, shots)
     page.close()
     print(f"{path}: {curves} charts, {hovers} hovers, {modes} modes, {controls} controls, {len(faults.list)} faults")
+    for fault in faults.list:
+        print(f"  {fault}")
+    return len(faults.list)
+
+
+def check_opens(browser, path):
+    """A page of a hostile model: every section is there, its texts are texts, and it fits a narrow window."""
+    faults = Faults(path)
+    page = open_page(browser, path, faults, viewport={"width": 400, "height": 900})
+    draw_all(page)
+    page.wait_for_timeout(300)
+    faults.unless(page.locator("p.failed").count() == 0, f"a section failed: {page.locator('p.failed').all_text_contents()[:2]}")
+    for summary in page.locator("details > summary").all():
+        summary.click()
+    foreign = page.evaluate("[...document.querySelectorAll('main [onclick], main [onerror], main script, main iframe')].map((e) => e.outerHTML.slice(0, 80))")
+    faults.unless(not foreign, f"elements of the model's texts: {foreign[:3]}")
+    wide = page.evaluate("document.documentElement.scrollWidth")
+    faults.unless(wide <= 400, f"the page is {wide} px wide in a window of 400")
+    page.close()
+    print(f"{path}: opened, {len(faults.list)} faults")
     for fault in faults.list:
         print(f"  {fault}")
     return len(faults.list)
@@ -209,11 +254,17 @@ def main(arguments):
         shots = Path(arguments[at + 1])
         shots.mkdir(parents=True, exist_ok=True)
         del arguments[at : at + 2]
+    only_open = "--only-open" in arguments
+    if only_open:
+        arguments.remove("--only-open")
     chromium, *files = arguments
     pairs = list(zip(files[::2], files[1::2]))
     with sync_playwright() as play:
         browser = play.chromium.launch(executable_path=chromium, args=FLAGS)
-        faults = sum(check(browser, Path(page).resolve(), results, shots) for page, results in pairs)
+        if only_open:
+            faults = sum(check_opens(browser, Path(page).resolve()) for page in files)
+        else:
+            faults = sum(check(browser, Path(page).resolve(), results, shots) for page, results in pairs)
         browser.close()
     sys.exit(1 if faults else 0)
 

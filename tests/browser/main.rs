@@ -49,6 +49,57 @@ fn tools() -> Option<(PathBuf, String)> {
     Some((found?, python))
 }
 
+/// Puts NaN into every number of the linear studies.
+const SPOIL: &str = "
+import sys, h5py
+with h5py.File(sys.argv[1], 'r+') as results:
+    for name in ['campbell/frequency', 'campbell/log_dec', 'campbell/shapes', 'modes/frequency', 'modes/shapes', 'unbalance/rpm']:
+        results[name][...] = float('nan')
+";
+
+/// A machine with markup in title and names, a title of 10⁵ characters, few elements.
+fn hostile_model() -> String {
+    let title =
+        format!("</script><script>alert(1)</script><img src=x onerror='alert(2)'>{}", "x".repeat(100_000));
+    let disc = "<b onclick=alert(3)>&'</b>";
+    let text = include_str!("../../models/nelson_mcvaugh.toml")
+        .replace("[disc.main]", &format!("[disc.{disc:?}]"))
+        .replace("\"disc.main\"", &format!("\"disc.{disc}\""));
+    let mut model: toml::Table = text.parse().unwrap();
+    model["model"].as_table_mut().unwrap().insert("title".into(), title.into());
+    toml::to_string(&model).unwrap()
+}
+
+fn output_of(command: &mut std::process::Command) {
+    let done = command.output().unwrap();
+    let [output, errors] =
+        [&done.stdout, &done.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
+    println!("{output}");
+    assert!(done.status.success(), "{output}\n{errors}");
+}
+
+/// Texts with markup, numbers that are none, no run-up, one study only: the page opens and shows text as text.
+#[test]
+fn pages_of_hostile_models_open() {
+    let Some((chromium, python)) = tools() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("hostile.toml");
+    std::fs::write(&model, hostile_model()).unwrap();
+    let rotordyn = || Command::cargo_bin("rotordyn").unwrap();
+    let outs = ["markup", "nan", "modal"].map(|name| folder.path().join(name));
+    for (study, out) in ["run", "run", "modal"].iter().zip(&outs) {
+        rotordyn().arg(study).arg(&model).arg("--quiet").arg("--out").arg(out).assert().success();
+    }
+    output_of(std::process::Command::new(&python).args(["-c", SPOIL]).arg(outs[1].join("results.h5")));
+    for out in &outs {
+        rotordyn().arg("report").arg(out).assert().success();
+    }
+    let mut check = std::process::Command::new(python);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    check.arg(root.join("tests/browser/check_reports.py")).arg("--only-open").arg(chromium);
+    output_of(check.args(outs.map(|out| out.join("report.html"))));
+}
+
 #[test]
 fn pages_work_in_a_browser() {
     let Some((chromium, python)) = tools() else { return };
@@ -72,8 +123,5 @@ fn pages_work_in_a_browser() {
     if let Some(shots) = std::env::var_os("ROTORDYN_SHOTS") {
         check.arg("--shots").arg(shots);
     }
-    let done = check.output().unwrap();
-    let [said, errors] = [&done.stdout, &done.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
-    println!("{said}");
-    assert!(done.status.success(), "{said}\n{errors}");
+    output_of(&mut check);
 }

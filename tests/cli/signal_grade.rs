@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::signal::faulty_bearing_record;
+use crate::signal::{faulty_bearing_record, measured_data};
 use crate::{json_of, output_of, rotordyn};
 use rotordyn::io::measured;
 use rotordyn::signal::record::{MeasuredData, Record};
@@ -75,6 +75,25 @@ fn wrong_rate_is_a_warning() {
     let flags = ["--bearing", "6205-2RS", "--speed", "1800 rpm", "--speed-range", "0"];
     let found = document(machine(7.5), &flags);
     assert!(!codes(&found).contains(&"shaft-speed-not-found"), "{}", found["warnings"]);
+}
+
+/// Records whose shaft has its strongest lines at 4x, 8x, …: the bearing's own lines confirm the stated speed.
+#[test]
+fn named_part_confirms_the_speed() {
+    for record in ["105_IR007_0hp_12k", "130_OR007at6_0hp_12k"] {
+        let Some(path) = measured_data::measured(&format!("cwru/{record}.mat")) else { return };
+        let out = tempfile::tempdir().unwrap();
+        let mut command = rotordyn();
+        command.arg("signal").arg(path).arg("--out").arg(out.path()).args([
+            "--bearing",
+            "6205-2RS",
+            "--rate",
+            "12 kHz",
+            "--no-figures",
+        ]);
+        let found = json_of(&mut command);
+        assert!(!codes(&found).contains(&"shaft-speed-not-found"), "{record}: {}", found["warnings"]);
+    }
 }
 
 /// Orders that do not add up to the number of balls are taken as given, with a warning.

@@ -58,6 +58,8 @@ pub static RIG: LazyLock<(Machine, Results)> = LazyLock::new(|| {
             step_error: None,
             cage_comparison: None,
         }),
+        critical_map: None,
+        torsional: None,
         cage_phases: None,
         ball_inertia: Vec::new(),
         warnings: vec![Warning::new(Code::Film, "bearing.B", "a warning")],

@@ -5,7 +5,7 @@ use rotordyn::io::hdf5::Store;
 use rotordyn::io::json::to_json;
 use rotordyn::io::results_file::write_study;
 use rotordyn::linalg::Complex64;
-use rotordyn::model::study::Parameter;
+use rotordyn::model::study::{CriticalMapStudy, Parameter, TorsionalStudy};
 use rotordyn::model::{Options, load as load_model};
 use rotordyn::results::{
     BearingWithOrders, BifurcationPoint, BifurcationResult, BifurcationSweep, CagePhaseBand,
@@ -62,6 +62,12 @@ fn order_line() -> OrderLine {
 fn every_result() -> (&'static Machine, Results) {
     let (machine, results) = &*RIG;
     let mut results = results.clone();
+    let map =
+        CriticalMapStudy { max_speed: 600.0, lowest_stiffness: None, highest_stiffness: None, points: 3 };
+    results.critical_map = Some(machine.critical_map(&map).unwrap());
+    let torsion =
+        TorsionalStudy { max_speed: 200.0, orders: vec![1.0, 2.0], modes: 2, operating_speeds: None };
+    results.torsional = Some(machine.torsional(&torsion).unwrap());
     let axis = |name: &str| SectionChannel { name: name.into(), unit: "m".into() };
     let orbit = FilteredOrbit {
         order: 1.0,
@@ -251,13 +257,15 @@ fn load_errors_name_file_and_place() {
 }
 
 /// Keys in JSON and groups in HDF5 of every field of `Results`.
-const WRITTEN: [(&str, &str, &str); 16] = [
+const WRITTEN: [(&str, &str, &str); 18] = [
     ("equilibrium", "equilibrium", "/equilibrium"),
     ("modal", "modal", "/modes"),
     ("campbell", "campbell", "/campbell"),
     ("critical", "critical_speeds", "/critical_speeds"),
     ("frf", "frf", "/frf"),
     ("unbalance", "unbalance", "/unbalance"),
+    ("critical_map", "critical_map", "/critical_map"),
+    ("torsional", "torsional", "/torsional"),
     ("run_up", "run_up", "/run_up"),
     ("spectrograms", "spectrograms", "/spectra/B_ax/spectrogram"),
     ("orders", "orders", "/spectra/B_ax/orders"),

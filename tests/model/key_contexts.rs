@@ -109,7 +109,7 @@ fn skeleton(path: &str, condition: &str) -> &'static str {
         "speed" if condition.contains("measured") => "pulses = \"0, 0.1, 0.2, 0.29, 0.38 s\"",
         "speed" => "profile = \"ramp\"\nto = \"3000 rpm\"\nramp = \"10 s\"",
         "study.campbell" | "study.unbalance" => "speeds = \"0, 600 rpm\"",
-        "study.critical" => "max_speed = \"6000 rpm\"",
+        "study.critical" | "study.critical_map" | "study.torsional" => "max_speed = \"6000 rpm\"",
         "study.frf" => "frequencies = \"1, 2 Hz\"\nexcitation.x = { at = \"station.C\", direction = \"x\" }",
         "study.bifurcation" => "parameter = \"speed\"\nvalues = [\"1000 rpm\", \"2000 rpm\", \"3000 rpm\"]",
         "study.bifurcation.values" => "from = \"1000 rpm\"\nto = \"5000 rpm\"",
@@ -119,6 +119,7 @@ fn skeleton(path: &str, condition: &str) -> &'static str {
         "study.bearing.skidding_loads" => "from = \"10 N\"\nto = \"400 N\"\ncount = 5",
         "study.bearing.skidding_speeds" => "from = \"1000 rpm\"\nto = \"9000 rpm\"\ncount = 5",
         "study.bearing.cage_angles" => "from = \"0 deg\"\nto = \"20 deg\"\ncount = 5",
+        path if path.ends_with(".operating_speeds") => "from = \"900 rpm\"\nto = \"1200 rpm\"\ncount = 2",
         path if path.ends_with(".speeds") => "from = \"0 rpm\"\nto = \"1200 rpm\"\ncount = 5",
         _ => "",
     }

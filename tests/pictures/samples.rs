@@ -321,6 +321,28 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
                 })
                 .collect(),
         }),
+        Figure::Stack(Stack {
+            title: name.clone(),
+            note: name.clone(),
+            x_name: labelled("load"),
+            x_unit: labelled("N"),
+            legend: vec![name.clone(), labelled("other")],
+            panels: (0..3)
+                .map(|k| StackPanel {
+                    name: name.clone(),
+                    unit: labelled("N"),
+                    curves: vec![
+                        Curve { label: name.clone(), x: x.clone(), y: y.clone(), points: false },
+                        Curve { x: y.clone(), y: x.clone(), points: true, ..Default::default() },
+                    ],
+                    log_y: k == 1,
+                    from_zero: k == 2,
+                    ..Default::default()
+                })
+                .collect(),
+            marks: x.iter().take(30).map(|x| (name.clone(), *x)).collect(),
+            height: 120.0,
+        }),
         Figure::MachineLayout(MachineLayout {
             title: name.clone(),
             sections: vec![LayoutSection {

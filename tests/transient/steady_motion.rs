@@ -92,8 +92,9 @@ fn section_of_a_linear_rotor_is_its_unbalance_response() {
     let machine = Machine::new(jeffcott(&[("damping.modal.ratio", "0.05")])).unwrap();
     let plane = plane(&machine.model, "disc_x", "disc_y");
     let responses = vec![plane.x.clone(), plane.y.clone()];
-    let linear =
-        machine.unbalance(&UnbalanceStudy { speeds: vec![speed], refine: false, responses }).unwrap();
+    let linear = machine
+        .unbalance(&UnbalanceStudy { speeds: vec![speed], refine: false, responses, operating_speeds: None })
+        .unwrap();
     let rest = machine
         .equilibrium(&rotordyn::model::study::EquilibriumStudy { speed, cage_average: false })
         .unwrap();

@@ -1,10 +1,12 @@
 //! Results of single studies: plain data in SI, and what is written of them to files.
 
 mod bearing;
+mod bearing_force;
 mod bifurcation;
 mod cage_comparison;
 mod campbell;
 mod critical;
+mod critical_map;
 mod free_ball;
 mod frf;
 mod history;
@@ -21,6 +23,7 @@ mod run_up_correlation;
 mod signal;
 mod spectra;
 mod steady;
+mod torsional;
 mod trend;
 mod unbalance;
 mod variant_comparison;
@@ -29,10 +32,12 @@ pub use bearing::{
     BallState, BearingLife, BearingPoint, BearingResult, BearingSweepResult, ContactState, EhlFilm,
     PickContact,
 };
+pub use bearing_force::BearingForce;
 pub use bifurcation::{BifurcationPoint, BifurcationResult, BifurcationSweep, SteadyMotion};
 pub use cage_comparison::{CageLine, CageSpeed, RollingCageComparison};
-pub use campbell::CampbellResult;
+pub use campbell::{CampbellResult, LeastDamped};
 pub use critical::CriticalResult;
+pub use critical_map::CriticalMap;
 pub use free_ball::{CageComparison, FreeBallMean, FreeBallRecord, FreeBallResult, LOSS_NAMES, SkiddingMap};
 pub use frf::FrfResult;
 pub use history::{History, HistoryChannel};
@@ -51,6 +56,7 @@ pub use signal::{
 };
 pub use spectra::{OrderResult, SpectrogramPeak, SpectrogramResult};
 pub use steady::{RecordedPeriods, SectionChannel, SectionClock};
+pub use torsional::{Interference, TorsionalResult};
 pub use trend::{
     Change, LineLevel, RecordDiagnosis, RecordState, TrendAxis, TrendQuantity, TrendRecord, TrendResult,
 };

@@ -56,6 +56,7 @@ mod phase_plane;
 mod polar;
 mod spectrogram;
 mod stabilisation;
+mod stack;
 mod symbols;
 mod waterfall;
 mod wireframe;
@@ -94,6 +95,7 @@ pub use phase_plane::{PhasePlane, PhasePlanes};
 pub use polar::{Polar, PolarCurve};
 pub use spectrogram::{Spectrogram, SpectrogramPanel};
 pub use stabilisation::{PoleStability, Stabilisation};
+pub use stack::{Stack, StackPanel};
 pub use symbols::{JointSymbol, SupportSymbol};
 pub use waterfall::{Waterfall, WaterfallPanel};
 pub use wireframe::{WireShape, Wireframe};
@@ -127,6 +129,7 @@ pub enum Figure {
     Matrix(Matrix),
     MachineLayout(MachineLayout),
     Stabilisation(Stabilisation),
+    Stack(Stack),
     Wireframe(Wireframe),
 }
 
@@ -164,6 +167,7 @@ impl Figure {
             Figure::Matrix(data) => matrix::draw(data),
             Figure::MachineLayout(data) => machine_layout::draw(data),
             Figure::Stabilisation(data) => stabilisation::draw(data),
+            Figure::Stack(data) => stack::draw(data),
             Figure::Wireframe(data) => wireframe::draw(data),
         })
     }

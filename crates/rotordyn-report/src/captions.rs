@@ -16,9 +16,16 @@ const INTERACTIVE: [&str; 9] = [
 const STILL_DRAWN: [&str; 2] = ["run_up_energy", "run_up_bearing_"];
 
 /// Beginning of a figure's name, what is seen.
-const CAPTIONS: [(&str, &str); 18] = [
+const CAPTIONS: [(&str, &str); 25] = [
     ("static_deflection", "Static deflection of the shaft."),
+    ("static_shaft_loads", "Deflection, shear force and bending moment along the shaft at rest."),
+    ("unbalance_shaft_loads", "Amplitudes of deflection, shear force and bending moment along the shaft."),
+    ("unbalance_bearing_forces", "Dynamic bearing forces under unbalance, with the static forces."),
     ("ball_loads", "Loads of the balls in every bearing at static equilibrium."),
+    ("stability", "Log decrement of the least damped modes over speed: below zero the machine is unstable."),
+    ("critical_map", "Undamped critical speeds over bearing stiffness; crossings with the bearings' own."),
+    ("torsional_interference", "Torsional natural frequencies and orders of excitation."),
+    ("torsional_modes", "Twist along the shaft in the torsional modes."),
     ("modes_", "Mode shapes with their orbits."),
     ("unbalance_polar", "Response to unbalance as polar plot."),
     ("unbalance_orbits", "Orbits under unbalance."),

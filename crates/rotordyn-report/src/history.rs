@@ -1,6 +1,7 @@
 //! Time histories reduced to what a screen shows: smallest and largest value of every interval.
 
 use super::arrays::Arrays;
+use super::items;
 use rotordyn_io::error::Error;
 use rotordyn_io::hdf5::{Attribute, Reader, recorded_samples};
 use serde_json::{Value, json};
@@ -31,7 +32,7 @@ pub(crate) fn read(reader: &dyn Reader, arrays: &mut Arrays) -> Result<Option<Va
     };
     let (time, rpm) = (mean("/time/t", 1.0)?, mean("/time/speed", TO_RPM)?);
     let mut channels = Vec::new();
-    for name in reader.members("/channels")? {
+    for name in items::sets(reader, "/channels")? {
         let path = format!("/channels/{name}");
         let unit = match reader.attribute(&path, "unit")? {
             Some(Attribute::Text(unit)) => unit,

@@ -10,6 +10,7 @@
 //! | `machine_view` | geometry that moves with the mode shapes |
 //! | `captions` | what is seen in the drawn figures |
 //! | `arrays` | numbers packed into the page |
+//! | `items` | names of items below a group of the file |
 //! | `markup` | texts and tables in HTML |
 //!
 //! Everything is read from the results file, so that a page can be made of an older one as well. The scripts and styles
@@ -18,6 +19,7 @@
 mod arrays;
 mod captions;
 mod history;
+mod items;
 mod machine_view;
 mod markup;
 mod model_table;

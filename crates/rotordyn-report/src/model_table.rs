@@ -22,7 +22,7 @@ pub(crate) fn section(given: &[GivenValue], defaults: &[DefaultValue], text: &st
         .collect();
     let mut out = String::new();
     if !rows.is_empty() {
-        out += "<details><summary>All values, as given in the file or taken by default</summary>\n";
+        out += "<details class=\"printed\"><summary>All values, as given in the file or taken by default</summary>\n";
         out += &table("Values of the model", &["key", "value", "from", "meaning"], &rows);
         out += "</details>\n";
     }

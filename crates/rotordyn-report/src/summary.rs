@@ -1,5 +1,6 @@
 //! What the results say, in about ten lines.
 
+use super::items;
 use rotordyn_core::model::Model;
 use rotordyn_io::error::Error;
 use rotordyn_io::hdf5::{Attribute, Reader};
@@ -51,11 +52,6 @@ fn attribute(reader: &dyn Reader, object: &str, name: &str) -> Result<Option<f64
         Some(Attribute::Integer(n)) => Some(n as f64),
         _ => None,
     })
-}
-
-/// Members of a group; none if it is missing.
-fn members(reader: &dyn Reader, group: &str) -> Result<Vec<String>, Error> {
-    if reader.contains(group)? { reader.members(group) } else { Ok(Vec::new()) }
 }
 
 /// Speeds at which 1x meets a natural frequency, with the separation of the nearest from the top speed.
@@ -142,7 +138,8 @@ fn thresholds(reader: &dyn Reader) -> Result<Vec<Line>, Error> {
 fn largest_orbit(reader: &dyn Reader) -> Result<Vec<Line>, Error> {
     let rpm = numbers(reader, "/unbalance/rpm")?;
     let mut largest: Option<(f64, f64, String)> = None;
-    for name in members(reader, "/unbalance/orbits")? {
+    let has_orbit = |path: &str| reader.contains(&format!("{path}/x"));
+    for name in items::groups(reader, "/unbalance/orbits", &has_orbit)? {
         let [x, y] = ["x", "y"].map(|axis| reader.read_complex(&format!("/unbalance/orbits/{name}/{axis}")));
         for ((x, y), rpm) in x?.data.iter().zip(&y?.data).zip(&rpm) {
             let iy = Complex64::I * y;
@@ -166,7 +163,8 @@ fn largest_orbit(reader: &dyn Reader) -> Result<Vec<Line>, Error> {
 /// Static loads of the bearings.
 fn bearing_loads(reader: &dyn Reader) -> Result<Vec<Line>, Error> {
     let mut out = Vec::new();
-    for name in members(reader, "/equilibrium/bearings")?.into_iter().take(LISTED) {
+    let has_force = |path: &str| reader.contains(&format!("{path}/force"));
+    for name in items::groups(reader, "/equilibrium/bearings", &has_force)?.into_iter().take(LISTED) {
         let at = format!("/equilibrium/bearings/{name}");
         let force = numbers(reader, &format!("{at}/force"))?;
         let [x, y, z, ..] = force[..] else { continue };
@@ -181,7 +179,8 @@ fn bearing_loads(reader: &dyn Reader) -> Result<Vec<Line>, Error> {
 /// Rating lives of the bearing study.
 fn bearing_lives(reader: &dyn Reader) -> Result<Vec<Line>, Error> {
     let mut out = Vec::new();
-    for name in members(reader, "/bearings")?.into_iter().take(LISTED) {
+    let has_life = |path: &str| Ok(attribute(reader, path, "basic_life")?.is_some());
+    for name in items::groups(reader, "/bearings", &has_life)?.into_iter().take(LISTED) {
         let life = attribute(reader, &format!("/bearings/{name}"), "basic_life")?;
         if let Some(life) = life.filter(|life| life.is_finite()) {
             let value = format!("L10 = {} million revolutions", significant(life));
@@ -194,11 +193,9 @@ fn bearing_lives(reader: &dyn Reader) -> Result<Vec<Line>, Error> {
 /// The strongest line in the spectra of the run-up, and how the run ended.
 fn run_up(reader: &dyn Reader) -> Result<Vec<Line>, Error> {
     let mut out = Vec::new();
-    for channel in members(reader, "/spectra")? {
+    let has_map = |path: &str| reader.contains(&format!("{path}/spectrogram/amplitude"));
+    for channel in items::groups(reader, "/spectra", &has_map)? {
         let at = format!("/spectra/{channel}/spectrogram");
-        if !reader.contains(&at)? {
-            continue;
-        }
         let map = reader.read(&format!("{at}/amplitude"))?;
         let (rpm, hz) =
             (numbers(reader, &format!("{at}/rpm"))?, numbers(reader, &format!("{at}/frequency"))?);

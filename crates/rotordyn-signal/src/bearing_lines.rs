@@ -349,7 +349,8 @@ impl<'a> LineSearch<'a> {
                 || ranked.clone().any(|f| self.belongs_to_family(f, line.frequency));
         }
         let own = family.lines.iter().filter(|l| l.modulation.is_none() && l.significant && !l.shared);
-        family.strength = own.clone().map(|l| l.amplitude * l.amplitude).sum::<f64>().sqrt();
+        // From 0, for a sum of no values is −0.
+        family.strength = own.clone().fold(0.0, |sum, l| sum + l.amplitude * l.amplitude).sqrt();
         family.detected = own.clone().any(|l| l.harmonic <= 2);
     }
 

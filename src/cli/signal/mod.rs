@@ -115,10 +115,10 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let speeds = results.iter().filter_map(|result| record_speed::warning(result, settings.speed_range));
     speeds.for_each(|text| terminal.warn_of(Code::ShaftSpeedNotFound, text));
 
-    results
-        .iter()
-        .flat_map(orders::jitter_warnings)
-        .for_each(|text| terminal.warn_of(Code::TachoJitter, text));
+    let shared = results.iter().flat_map(orders::one_band_warnings);
+    shared.for_each(|text| terminal.warn_of(Code::OrdersInOneBand, text));
+    let jitter = results.iter().flat_map(orders::jitter_warnings);
+    jitter.for_each(|text| terminal.warn_of(Code::TachoJitter, text));
 
     let mut document = signal_to_json(&results, other.as_ref().map(|(other, _)| other));
     document["command"] = json!("signal");

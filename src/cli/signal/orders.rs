@@ -1,6 +1,7 @@
 //! Orders asked for by number or by name: 7, 1x, BPFO, "2 BPFO".
 
 use rotordyn::results::{BearingWithOrders, OrderLine, SignalResult};
+use rotordyn::signal::order_tracks::orders_in_one_band;
 use rotordyn::signal::tacho_jitter::JitterLeak;
 
 use super::super::terminal::number;
@@ -21,6 +22,19 @@ pub fn lines(
         }
     }
     lines
+}
+
+/// A warning for every pair of tracked orders that the bandwidth does not separate.
+pub fn one_band_warnings(result: &SignalResult) -> Vec<String> {
+    let Some(found) = &result.orders else { return Vec::new() };
+    let Some(tracks) = &found.tracks else { return Vec::new() };
+    let orders: Vec<f64> = tracks.tracks.iter().map(|track| track.order).collect();
+    let text = |pair: [usize; 2]| {
+        let [a, b] = pair.map(|k| &found.cuts[k].0.label);
+        let width = number(tracks.bandwidth, 3);
+        format!("{}: {a} and {b} lie in one pass band of {width} orders", result.channel)
+    };
+    orders_in_one_band(&orders, tracks.bandwidth).into_iter().map(text).collect()
 }
 
 /// A warning for every tracked order that has a part of a stronger one by the tacho's jitter.

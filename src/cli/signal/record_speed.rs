@@ -19,7 +19,7 @@ pub fn line(result: &SignalResult) -> Option<String> {
     ))
 }
 
-/// Warning if no family of shaft harmonics stands near the stated speed.
+/// Warning if neither shaft harmonics nor the diagnosis confirm the stated speed.
 pub fn warning(result: &SignalResult, range: f64) -> Option<String> {
     let stated = result.shaft.as_ref()?.mean;
     let missing = format!(
@@ -28,7 +28,7 @@ pub fn warning(result: &SignalResult, range: f64) -> Option<String> {
         number(100.0 * range, 3),
         number(60.0 * stated, 5)
     );
-    match result.record_speed? {
+    match result.unconfirmed_speed()? {
         SpeedFinding::Found(_) => None,
         SpeedFinding::NotFound => {
             Some(format!("{missing}: speed and sampling rate are not confirmed by the record"))

@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 
 use rotordyn::results::{BearingWithOrders, LineLevel, SignalResult, TrendRecord};
 use rotordyn::signal::diagnosis::BandRule;
-use rotordyn::signal::grading::SpeedFinding;
 use rotordyn::study::signal::{Analysis, AnalysisSelection, SignalChannel, SignalSettings};
 use rotordyn::study::trend::{line_levels, record_state};
 
@@ -107,8 +106,7 @@ impl Job<'_> {
             }
         };
         out.warnings.extend(found.warnings.iter().cloned());
-        out.speed_not_found =
-            matches!(found.record_speed, Some(SpeedFinding::NotFound | SpeedFinding::Elsewhere { .. }));
+        out.speed_not_found = found.unconfirmed_speed().is_some();
         let mut state = record_state(&found, &self.rms_bands)?;
         if let (Some(diagnosis), Some(BandRule::Given(..) | BandRule::Whole)) =
             (&mut state.diagnosis, self.settings.band)

@@ -34,7 +34,7 @@ pub struct Campbell {
     /// Number of modes requested.
     pub(super) count: usize,
     /// All modes computed at every speed, a few more than requested.
-    pub(super) sets: Vec<Vec<Mode>>,
+    pub(crate) sets: Vec<Vec<Mode>>,
 }
 
 /// One mode tracked over speed.

@@ -6,6 +6,9 @@ pub use super::bearing_state::{BearingState, CAGE_ANGLES_PER_PITCH, CageTreatmen
 use super::belt_pull::{BeltPull, belt_pulls};
 use super::mounted_preload::mounted_preloads;
 use super::preload::MountedPreload;
+use super::section_loads::ShaftSections;
+use super::shaft_loads::{self, ShaftPoint};
+use super::support_forces::{SupportForce, support_forces};
 use crate::assembly::rigid_body_modes::motion_of;
 use crate::assembly::{Assembly, DofMap, PhysicsError};
 use crate::document::{Document, Rows, in_hdf5, in_json, named};
@@ -47,12 +50,25 @@ pub struct Equilibrium {
     pub iterations: usize,
     /// Largest unbalanced force or moment \[N, N m\].
     pub residual: f64,
+    /// Deflection and loads along the shaft, and the forces of its supports; empty for a rigid rotor, and where only the
+    /// equilibrium is of interest.
+    pub shaft: Vec<ShaftPoint>,
+    pub support_forces: Vec<SupportForce>,
 }
 
 impl Equilibrium {
     /// Tangents of all bearings in the order of the model.
     pub fn tangents(&self) -> Vec<SiteTangent> {
         self.bearings.iter().map(|b| b.tangent).collect()
+    }
+
+    /// The equilibrium with deflection, section loads and support forces of the shaft.
+    pub fn with_shaft_loads(mut self, model: &Model, assembly: &Assembly) -> Self {
+        let q = assembly.dofs.expand(&self.q);
+        let sections = ShaftSections::new(model).at_rest(&q);
+        self.shaft = shaft_loads::at_rest(model, &sections, &q);
+        self.support_forces = support_forces(model, &sections);
+        self
     }
 
     /// What is written to files.
@@ -71,6 +87,8 @@ impl Equilibrium {
             .integer("iterations", self.iterations)
             .quantity("residual", "N", self.residual)
             .table(named("nodes", ""), rows)
+            .table("shaft", ShaftPoint::columns(&self.shaft))
+            .table("support_forces", SupportForce::columns(&self.support_forces))
             .groups("belts", "name", self.belts.iter().map(|b| (b.name.clone(), b.document())))
             .groups("preloads", "bearing", self.preloads.iter().map(|p| (p.bearing.clone(), p.document())))
             .groups("bearings", "name", self.bearings.iter().map(|b| (b.name.clone(), b.document())))
@@ -259,6 +277,8 @@ pub fn equilibrium(
         q,
         iterations,
         residual: left,
+        shaft: Vec::new(),
+        support_forces: Vec::new(),
     })
 }
 

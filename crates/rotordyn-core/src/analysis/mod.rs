@@ -8,10 +8,16 @@
 //! | [`modal`] | natural frequencies, damping, mode shapes, kinds and labels at one speed |
 //! | [`campbell`] | modes over speed (Campbell diagram), tracked by MAC |
 //! | [`critical_speed`] | critical speeds: intersections of modes with order lines |
+//! | [`critical_map`] | undamped critical speeds over the stiffness of the bearings |
+//! | [`torsional`] | undamped torsional modes |
 //! | [`sensitivity`] | derivatives of eigenvalues, mode shapes and FRFs with respect to any parameter |
 //! | [`poles`] | poles of FRFs and of the unbalance response |
 //! | [`peaks`] | resonance peaks over speed: amplification factor, separation margin |
+//! | [`separation`] | critical speeds with separation margins from the operating speeds |
 //! | [`refine`](mod@refine) | grids refined around poles |
+//! | [`section_loads`] | shear force, bending moment, axial force and torque along the shaft |
+//! | [`shaft_loads`] | deflection and section loads along the shaft, at rest and under unbalance |
+//! | [`support_forces`](mod@support_forces) | forces of the supports on the shaft |
 //! | [`stability`] | stability thresholds: speeds where a mode's damping vanishes |
 //! | [`frf`] | frequency response functions at a fixed speed |
 //! | [`harmonic`] | steady harmonic response of a linear system, the common solver of FRF and unbalance |
@@ -23,6 +29,7 @@ mod bearing_state;
 pub mod bearing_stiffness;
 pub mod belt_pull;
 pub mod campbell;
+pub mod critical_map;
 pub mod critical_speed;
 pub mod equilibrium;
 pub mod frf;
@@ -35,9 +42,14 @@ pub mod peaks;
 pub mod poles;
 pub mod preload;
 pub mod refine;
+pub mod section_loads;
 pub mod sensitivity;
+pub mod separation;
+pub mod shaft_loads;
 pub mod stability;
+pub mod support_forces;
 pub mod table_range;
+pub mod torsional;
 pub mod unbalance;
 
 pub use modal::Mode;

@@ -7,7 +7,7 @@ const HALF_POWER: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// A peak falls at least to this fraction of its amplitude on both sides before a higher one follows.
 const VALLEY: f64 = 0.95;
 /// Amplification factor below which a peak counts as critically damped.
-const CRITICALLY_DAMPED: f64 = 2.5;
+pub const CRITICALLY_DAMPED: f64 = 2.5;
 
 /// A resonance peak of an amplitude over speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -28,23 +28,41 @@ impl Peak {
         self.half_power.map(|[low, high]| self.at / (high - low))
     }
 
-    /// Separation margin |N_c − N|/N from an operating speed N.
-    pub fn separation(&self, operating: f64) -> f64 {
-        (self.at - operating).abs() / operating
+    /// Separation margin from the operating speeds, as [`separation`].
+    pub fn separation(&self, operating: [f64; 2]) -> f64 {
+        separation(self.at, operating)
     }
 
-    /// Separation margin required by API 617: 0 for AF < 2.5, else 17 % (1 − 1/(AF − 1.5)) up to 16 % below the
-    /// operating speed, 10 % more above it.
-    ///
-    /// `None` without an amplification factor. Source: API 617 and API 684, SP 6.8.2.10.
-    pub fn required_separation(&self, operating: f64) -> Option<f64> {
-        let factor = self.amplification()?;
-        if factor < CRITICALLY_DAMPED {
-            return Some(0.0);
-        }
-        let margin = 0.17 * (1.0 - 1.0 / (factor - 1.5));
-        Some(if self.at < operating { margin.min(0.16) } else { (0.1 + margin).min(0.26) })
+    /// Separation margin required by API 617, as [`required_separation`]; `None` without an amplification factor.
+    pub fn required_separation(&self, operating: [f64; 2]) -> Option<f64> {
+        Some(required_separation(self.at, self.amplification()?, operating))
     }
+}
+
+/// Separation margin of a critical speed N_c from operating speeds N_min to N_max: (N_min − N_c)/N_min below them,
+/// (N_c − N_max)/N_max above them, 0 among them.
+///
+/// Source: API 617 and API 684, SP 6.8.2.10.
+pub fn separation(critical: f64, [lowest, highest]: [f64; 2]) -> f64 {
+    if critical < lowest {
+        (lowest - critical) / lowest
+    } else if critical > highest {
+        (critical - highest) / highest
+    } else {
+        0.0
+    }
+}
+
+/// Separation margin required by API 617: 0 for AF < 2.5, else 17 % (1 − 1/(AF − 1.5)) up to 16 % below the
+/// operating speeds, 10 % more among and above them.
+///
+/// Source: API 617 and API 684, SP 6.8.2.10.
+pub fn required_separation(critical: f64, factor: f64, [lowest, _]: [f64; 2]) -> f64 {
+    if factor < CRITICALLY_DAMPED {
+        return 0.0;
+    }
+    let margin = 0.17 * (1.0 - 1.0 / (factor - 1.5));
+    if critical < lowest { margin.min(0.16) } else { (0.1 + margin).min(0.26) }
 }
 
 /// Peaks of an amplitude over increasing speeds, the ends of the range excluded.
@@ -138,13 +156,18 @@ mod tests {
             half_power: Some([at - 0.5 * at / factor, at + 0.5 * at / factor]),
         };
         let close = |a: Option<f64>, b: f64| assert!((a.unwrap() - b).abs() < 1e-12, "{a:?} {b}");
-        close(peak(80.0, 2.4).required_separation(100.0), 0.0);
-        close(peak(80.0, 3.5).required_separation(100.0), 0.085);
-        close(peak(130.0, 3.5).required_separation(100.0), 0.185);
-        close(peak(80.0, 100.0).required_separation(100.0), 0.16);
-        close(peak(130.0, 100.0).required_separation(100.0), 0.26);
-        close(Some(peak(80.0, 9.0).separation(100.0)), 0.2);
-        assert!(Peak { at: 1.0, amplitude: 1.0, half_power: None }.required_separation(2.0).is_none());
+        close(peak(80.0, 2.4).required_separation([100.0; 2]), 0.0);
+        close(peak(80.0, 3.5).required_separation([100.0; 2]), 0.085);
+        close(peak(130.0, 3.5).required_separation([100.0; 2]), 0.185);
+        close(peak(80.0, 100.0).required_separation([100.0; 2]), 0.16);
+        close(peak(130.0, 100.0).required_separation([100.0; 2]), 0.26);
+        close(Some(peak(80.0, 9.0).separation([100.0; 2])), 0.2);
+        // Among the operating speeds there is no margin; below and above them it is that from the nearer end.
+        close(Some(peak(95.0, 9.0).separation([90.0, 110.0])), 0.0);
+        close(peak(95.0, 3.5).required_separation([90.0, 110.0]), 0.185);
+        close(Some(peak(72.0, 9.0).separation([90.0, 110.0])), 0.2);
+        close(Some(peak(132.0, 9.0).separation([90.0, 110.0])), 0.2);
+        assert!(Peak { at: 1.0, amplitude: 1.0, half_power: None }.required_separation([2.0; 2]).is_none());
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::campbell::Tangents;
 use super::critical_speed::{self, CriticalSpeed};
 use super::modal::{self, Mode};
-use super::mode::inner;
+use super::mode::{ModeKind, inner};
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use rayon::prelude::*;
 use rotordyn_linalg::Complex64;
@@ -29,6 +29,8 @@ pub struct Pole {
     pub half_width: f64,
     /// Label of the mode.
     pub label: String,
+    /// Kind of the mode; `None` without it.
+    pub kind: Option<ModeKind>,
     /// Damping ratio ζ.
     pub damping_ratio: f64,
     /// Mode shape over the free DOFs.
@@ -38,7 +40,8 @@ pub struct Pole {
 impl Pole {
     /// A pole without its mode.
     pub fn new(at: f64, half_width: f64) -> Self {
-        Self { at, half_width, label: String::new(), damping_ratio: half_width / at, shape: Vec::new() }
+        let damping_ratio = half_width / at;
+        Self { at, half_width, label: String::new(), kind: None, damping_ratio, shape: Vec::new() }
     }
 
     /// Whether the response at the pole is infinite.
@@ -54,7 +57,8 @@ impl Pole {
 
     fn of(mode: &Mode, at: f64, half_width: f64) -> Self {
         let (label, shape) = (mode.label.clone(), mode.shape.clone());
-        Self { at, half_width: half_width.abs(), label, damping_ratio: mode.zeta(), shape }
+        let (kind, damping_ratio) = (Some(mode.kind), mode.zeta());
+        Self { at, half_width: half_width.abs(), label, kind, damping_ratio, shape }
     }
 }
 

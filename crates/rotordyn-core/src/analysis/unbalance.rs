@@ -5,9 +5,10 @@ use super::frf::derivative_factor;
 use super::harmonic::HarmonicSystem;
 use super::mode_kind::whirl_index;
 use crate::assembly::rigid_body_modes::unconstrained_motion;
-use crate::assembly::{Assembly, LinearSystem, PhysicsError};
+use crate::assembly::{Assembly, LinearSystem, PhysicsError, Site};
 use crate::model::Quantity;
 use rayon::prelude::*;
+use rotordyn_bearing::SiteTangent;
 use rotordyn_linalg::{Complex64, SparseRow};
 use serde::{Deserialize, Serialize};
 
@@ -18,6 +19,8 @@ pub struct UnbalanceResponse {
     pub speeds: Vec<f64>,
     /// Q over the free DOFs at every speed.
     pub amplitudes: Vec<Vec<Complex64>>,
+    /// Forces and moments of every bearing on the shaft, F_x F_y F_z M_x M_y M_z, at every speed \[N, N m\].
+    pub bearing_forces: Vec<Vec<[Complex64; 6]>>,
 }
 
 /// Elliptic orbit x = Re(X e^{jΩt}), y = Re(Y e^{jΩt}).
@@ -71,10 +74,11 @@ pub fn response(
     speeds: &[f64],
     tangents: &impl Tangents,
 ) -> Result<UnbalanceResponse, PhysicsError> {
-    let amplitudes = speeds
+    let (amplitudes, bearing_forces) = speeds
         .par_iter()
         .map(|&speed| {
-            let system = LinearSystem::new(assembly, &tangents(speed)?, speed)?;
+            let tangents = tangents(speed)?;
+            let system = LinearSystem::new(assembly, &tangents, speed)?;
             let mut q = assembly.unbalance_amplitude(speed);
             let reached: Vec<usize> = (0..q.len()).filter(|&i| q[i] != Complex64::default()).collect();
             let harmonic = HarmonicSystem::new(&system, Some(&reached));
@@ -83,8 +87,22 @@ pub fn response(
                 motion: unconstrained_motion(assembly, &system, pivot.unknown),
             })?;
             solver.solve(&mut q);
-            Ok(q)
+            let forces =
+                assembly.sites.iter().zip(&tangents).map(|(site, t)| bearing_force(site, t, &q, speed));
+            let forces = forces.collect();
+            Ok((q, forces))
         })
-        .collect::<Result<_, PhysicsError>>()?;
-    Ok(UnbalanceResponse { speeds: speeds.to_vec(), amplitudes })
+        .collect::<Result<Vec<_>, PhysicsError>>()?
+        .into_iter()
+        .unzip();
+    Ok(UnbalanceResponse { speeds: speeds.to_vec(), amplitudes, bearing_forces })
+}
+
+/// Force of a bearing on the shaft, F = −(K + jΩ C) d with its relative displacement d.
+fn bearing_force(site: &Site, tangent: &SiteTangent, q: &[Complex64], speed: f64) -> [Complex64; 6] {
+    let d: [Complex64; 6] = std::array::from_fn(|i| site.rows[i].dot_complex(q));
+    std::array::from_fn(|i| {
+        let (k, c) = (&tangent.stiffness[i], &tangent.damping[i]);
+        -(0..6).map(|j| Complex64::new(k[j], speed * c[j]) * d[j]).sum::<Complex64>()
+    })
 }

@@ -14,6 +14,8 @@ pub struct Studies {
     pub modal: Option<ModalStudy>,
     pub campbell: Option<CampbellStudy>,
     pub critical: Option<CriticalStudy>,
+    pub critical_map: Option<CriticalMapStudy>,
+    pub torsional: Option<TorsionalStudy>,
     pub frf: Option<FrfStudy>,
     pub unbalance: Option<UnbalanceStudy>,
     pub run_up: Option<RunUpStudy>,
@@ -65,6 +67,31 @@ pub struct CriticalStudy {
     pub orders: Vec<f64>,
 }
 
+/// Undamped critical speeds over the radial stiffness of the bearings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CriticalMapStudy {
+    /// Upper limit of the speeds \[rad/s\].
+    pub max_speed: f64,
+    /// Ends of the range of stiffness \[N/m\]; `None`: decades around that of the bearings.
+    pub lowest_stiffness: Option<f64>,
+    pub highest_stiffness: Option<f64>,
+    /// Number of stiffnesses.
+    pub points: usize,
+}
+
+/// Torsional modes and the orders that excite them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TorsionalStudy {
+    /// Highest speed of the interference diagram \[rad/s\].
+    pub max_speed: f64,
+    /// Orders of excitation.
+    pub orders: Vec<f64>,
+    /// Number of modes.
+    pub modes: usize,
+    /// Lowest and highest operating speed \[rad/s\]; `None`: the highest of the speed profile.
+    pub operating_speeds: Option<[f64; 2]>,
+}
+
 /// Frequency response functions at a fixed speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrfStudy {
@@ -97,6 +124,8 @@ pub struct UnbalanceStudy {
     /// Add speeds around the critical speeds.
     pub refine: bool,
     pub responses: Vec<Probe>,
+    /// Lowest and highest operating speed for the separation margins \[rad/s\]; `None`: the highest of the speed profile.
+    pub operating_speeds: Option<[f64; 2]>,
 }
 
 /// Nonlinear transient through the speed profile.

@@ -22,7 +22,32 @@ pub struct CampbellResult {
     pub thresholds: Vec<Threshold>,
 }
 
+/// The mode of least damping at a speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeastDamped {
+    /// Ω \[rad/s\].
+    pub speed: f64,
+    pub label: String,
+    /// δ; negative: unstable.
+    pub log_decrement: f64,
+}
+
+/// Log decrement below which all modes are undamped but for round-off.
+const UNDAMPED: f64 = 1e-6;
+
 impl CampbellResult {
+    /// The least log decrement of all modes of the diagram, tracked or not, at every speed; none if nothing is damped.
+    pub fn least_damped(&self) -> Vec<LeastDamped> {
+        let at = |(speed, modes): (&f64, &Vec<Mode>)| {
+            let least = modes.iter().min_by(|a, b| a.log_dec().total_cmp(&b.log_dec()))?;
+            Some(LeastDamped { speed: *speed, label: least.label.clone(), log_decrement: least.log_dec() })
+        };
+        let found: Vec<LeastDamped> =
+            self.diagram.speeds.iter().zip(&self.diagram.sets).filter_map(at).collect();
+        let damped = found.iter().any(|point| point.log_decrement.abs() > UNDAMPED);
+        if damped { found } else { Vec::new() }
+    }
+
     /// What is written to files.
     pub fn document(&self) -> Document<'_> {
         let diagram = &self.diagram;
@@ -71,8 +96,14 @@ impl CampbellResult {
             .number(named("speed_rpm", "rpm"), "rpm", |t| t.speed * TO_RPM)
             .flag("unstable_above", |t| t.unstable_above)
             .text("label", |t| &t.mode.label);
+        let least_damped = self.least_damped();
+        let stability = Rows::of(&least_damped)
+            .number(named("speed_rpm", "rpm"), "rpm", |p| p.speed * TO_RPM)
+            .number(named("log_decrement", "log_dec"), "1", |p| p.log_decrement)
+            .text("label", |p| p.label.clone());
         Document::new()
             .numbers(named("speeds_rpm", "rpm"), "rpm", speeds)
+            .table("least_damped", stability)
             .table(named("branches", ""), branches)
             .table("orders", orders)
             .table("crossings", CriticalSpeed::columns(Rows::of(&self.crossings.list)))

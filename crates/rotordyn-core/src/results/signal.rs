@@ -28,6 +28,9 @@ use rotordyn_signal::stft::Spectrogram;
 use rotordyn_units::names::group_name;
 use std::f64::consts::TAU;
 
+/// Probability of a named part whose lines confirm the stated shaft speed.
+const CERTAIN: f64 = 0.95;
+
 /// Results of one channel; analyses not requested are empty.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct SignalResult {
@@ -105,6 +108,18 @@ impl SignalResult {
             Some(SpeedFinding::Found(found)) => Some(found.speed),
             _ => self.shaft.as_ref().map(|s| s.mean),
         }
+    }
+
+    /// The search for the shaft speed, if neither its harmonics nor a diagnosis confirm the stated one.
+    ///
+    /// A part named at 95 % or above has its lines at multiples of the stated speed. Lines of 2 or 4 times that speed
+    /// are harmonics of it too; a family of a half or a quarter of it is doubtful whatever the diagnosis.
+    pub fn unconfirmed_speed(&self) -> Option<SpeedFinding> {
+        let found = self.record_speed.filter(|found| !matches!(found, SpeedFinding::Found(_)))?;
+        let slower = matches!(found, SpeedFinding::Elsewhere { ratio, .. } if ratio < 1.0);
+        let graded = self.envelope.as_ref().and_then(|envelope| envelope.graded.as_ref());
+        let is_named = graded.is_some_and(|g| g.part().is_some() && g.probability >= CERTAIN);
+        (slower || !is_named).then_some(found)
     }
 
     /// The group of the channel.

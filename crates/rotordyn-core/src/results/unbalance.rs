@@ -1,8 +1,10 @@
 //! Unbalance response.
 
-use super::UndampedPeak;
 use super::response_grid::{is_rotation, requested_mask, unit_of};
+use super::{BearingForce, UndampedPeak};
 use crate::analysis::peaks::Peak;
+use crate::analysis::separation::SeparationMargin;
+use crate::analysis::shaft_loads::ShaftAmplitudes;
 use crate::analysis::unbalance::UnbalanceResponse;
 use crate::document::{Array, Document, MissingCell, Rows, TO_RPM, in_hdf5, in_json, named};
 use crate::model::Probe;
@@ -20,8 +22,15 @@ pub struct UnbalanceResult {
     pub orbits: Vec<DiscOrbit>,
     /// Peaks of every channel and orbit, by speed \[rad/s\].
     pub peaks: Vec<ResponsePeak>,
-    /// Operating speed \[rad/s\] for the separation margins: the highest of the speed profile.
-    pub operating_speed: Option<f64>,
+    /// Lowest and highest operating speed \[rad/s\] for the separation margins: those of the study, else the highest of
+    /// the speed profile.
+    pub operating_speeds: Option<[f64; 2]>,
+    /// Critical speeds with their margins.
+    pub margins: Vec<SeparationMargin>,
+    pub bearing_forces: Vec<BearingForce>,
+    /// Amplitudes along the shaft at the highest operating speed and where its bending moment is largest; empty for a
+    /// rigid rotor.
+    pub shaft: Vec<ShaftAmplitudes>,
     /// Undamped modes excited by the unbalance, at which the response is infinite, by speed \[rad/s\].
     pub undamped: Vec<UndampedPeak>,
 }
@@ -83,11 +92,23 @@ impl UnbalanceResult {
             .array(in_json("requested"), Array::indices(&self.requested))
             .array(in_hdf5("requested"), requested_mask(&self.requested, count).over(0, "rpm"))
             .numbers(named("speeds_rpm", "rpm"), "rpm", speeds)
-            .optional(in_json("operating_speed_rpm"), "rad/s", self.operating_speed)
+            .optional(in_json("operating_speed_rpm"), "rad/s", self.operating_speeds.map(|speeds| speeds[1]))
+            .optional(
+                in_json("lowest_operating_speed_rpm"),
+                "rad/s",
+                self.operating_speeds.map(|speeds| speeds[0]),
+            )
             .table("peaks", self.peak_columns())
+            .table("separation_margins", SeparationMargin::columns(&self.margins))
+            .table(in_json("bearing_forces"), BearingForce::columns(&self.bearing_forces, count))
+            .list("shaft", self.shaft.iter().map(ShaftAmplitudes::document))
+            .and(BearingForce::arrays(&self.bearing_forces))
             .table(in_json("undamped"), UndampedPeak::columns(&self.undamped, "speed_rpm", TO_RPM))
             .table(in_json("responses"), responses)
             .table(in_json("orbits"), orbits);
+        for (k, shaft) in self.shaft.iter().enumerate() {
+            out = out.group(in_hdf5(format!("shaft/{k}")), shaft.document());
+        }
         for channel in &self.channels {
             let name = in_hdf5(format!("channels/{}", channel.probe.name));
             out = out.array(name, complex(&channel.amplitude, channel.unit()));
@@ -101,7 +122,7 @@ impl UnbalanceResult {
     }
 
     fn peak_columns(&self) -> Rows<'static, '_, ResponsePeak> {
-        let speed = self.operating_speed;
+        let speed = self.operating_speeds;
         let half_power =
             |p: &ResponsePeak| p.peak.half_power.map_or([f64::NAN; 2], |ends| ends.map(|s| s * TO_RPM));
         Rows::of(&self.peaks)

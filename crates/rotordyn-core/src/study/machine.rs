@@ -78,7 +78,9 @@ impl Machine {
         }
         self.check_tables("static", &[study.speed])?;
         let cage = if study.cage_average { CageTreatment::Averaged } else { CageTreatment::FixedAngle };
-        equilibrium(&self.model, &self.assembly, study.speed, cage, Some(&self.standstill_equilibrium.q))
+        let start = Some(&self.standstill_equilibrium.q[..]);
+        let found = equilibrium(&self.model, &self.assembly, study.speed, cage, start)?;
+        Ok(found.with_shaft_loads(&self.model, &self.assembly))
     }
 
     /// Pulls of the belts in the equilibrium at standstill, about which linear studies are linearised.

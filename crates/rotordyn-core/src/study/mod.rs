@@ -7,6 +7,7 @@ mod bearing_motion;
 mod bifurcation;
 mod cage_comparison;
 mod cage_phases;
+mod critical_map;
 mod ehl_film;
 mod error;
 pub mod forecast;
@@ -23,7 +24,9 @@ mod settling;
 pub mod signal;
 mod steady_motion;
 mod step_error;
+mod torsional;
 pub mod trend;
+mod unbalance_loads;
 mod variant_comparison;
 mod warnings;
 
@@ -47,9 +50,9 @@ use crate::analysis::equilibrium::Equilibrium;
 use crate::assembly::DofMap;
 use crate::document::{Document, Section, in_json};
 use crate::results::{
-    BearingResult, BifurcationResult, CagePhaseBand, CampbellResult, CriticalResult, FrfResult,
+    BearingResult, BifurcationResult, CagePhaseBand, CampbellResult, CriticalMap, CriticalResult, FrfResult,
     LyapunovResult, ModalResult, OrderResult, PoincareResult, RunUpResult, SpectrogramResult,
-    UnbalanceResult, warnings_section,
+    TorsionalResult, UnbalanceResult, warnings_section,
 };
 use crate::warning::Warning;
 use serde::{Deserialize, Serialize};
@@ -61,6 +64,8 @@ pub struct Results {
     pub modal: Vec<ModalResult>,
     pub campbell: Option<CampbellResult>,
     pub critical: Option<CriticalResult>,
+    pub critical_map: Option<CriticalMap>,
+    pub torsional: Option<TorsionalResult>,
     pub frf: Option<FrfResult>,
     pub unbalance: Option<UnbalanceResult>,
     pub run_up: Option<RunUpResult>,
@@ -86,6 +91,8 @@ impl Results {
             modal,
             campbell,
             critical,
+            critical_map,
+            torsional,
             frf,
             unbalance,
             run_up,
@@ -105,6 +112,8 @@ impl Results {
             one("modal", "modes", (!modal.is_empty()).then(|| ModalResult::document(modal, dofs))),
             one("campbell", "campbell", campbell.as_ref().map(CampbellResult::document)),
             one("critical_speeds", "critical_speeds", critical.as_ref().map(|found| found.document(dofs))),
+            one("critical_map", "critical_map", critical_map.as_ref().map(CriticalMap::document)),
+            one("torsional", "torsional", torsional.as_ref().map(TorsionalResult::document)),
             one("frf", "frf", frf.as_ref().map(FrfResult::document)),
             one("unbalance", "unbalance", unbalance.as_ref().map(UnbalanceResult::document)),
             one("run_up", "run_up", run_up.as_ref().map(RunUpResult::document)),

@@ -5,11 +5,12 @@ use crate::analysis::frf::{self, Frf};
 use crate::analysis::peaks::peaks;
 use crate::analysis::poles::{Pole, frf_poles, synchronous_poles};
 use crate::analysis::refine::{RefinedGrid, refine};
+use crate::analysis::separation::separation_margins;
 use crate::analysis::unbalance::{self, Orbit, UnbalanceResponse};
 use crate::assembly::PhysicsError;
 use crate::element::Anchor;
 use crate::model::study::{Excitation, FrfStudy, UnbalanceStudy};
-use crate::model::{Drive, Probe, Quantity};
+use crate::model::{Probe, Quantity};
 use crate::results::{
     DiscOrbit, FrfResult, ResponsePeak, UnbalanceChannel, UnbalanceResult, UndampedPeak, is_rotation, unit_of,
 };
@@ -109,15 +110,17 @@ impl Machine {
             false => [highest * (1.0 - SINGLE_POINT_RANGE), highest * (1.0 + SINGLE_POINT_RANGE)],
         };
         let poles = synchronous_poles(&self.assembly, range, &tangents)?;
-        let evaluate = |speeds: &[f64]| -> Result<Vec<Vec<Complex64>>, PhysicsError> {
-            Ok(unbalance::response(&self.assembly, speeds, &tangents)?.amplitudes)
+        type Sample = (Vec<Complex64>, Vec<[Complex64; 6]>);
+        let evaluate = |speeds: &[f64]| -> Result<Vec<Sample>, PhysicsError> {
+            let found = unbalance::response(&self.assembly, speeds, &tangents)?;
+            Ok(found.amplitudes.into_iter().zip(found.bearing_forces).collect())
         };
-        let curves = |q: &Vec<Complex64>| -> Vec<Complex64> {
-            observed.iter().map(|row| row.dot_complex(q)).collect()
-        };
-        let RefinedGrid { points: speeds, samples: amplitudes, requested } =
+        let curves =
+            |(q, _): &Sample| -> Vec<Complex64> { observed.iter().map(|row| row.dot_complex(q)).collect() };
+        let RefinedGrid { points: speeds, samples, requested } =
             refined(&study.speeds, &poles, study.refine, evaluate, curves)?;
-        let response = UnbalanceResponse { speeds, amplitudes };
+        let (amplitudes, bearing_forces) = samples.into_iter().unzip();
+        let response = UnbalanceResponse { speeds, amplitudes, bearing_forces };
 
         let orbit_name = |name: &str| format!("orbit of disc.{name}");
         let orbit_names: Vec<String> = discs.iter().map(|(name, _)| orbit_name(name)).collect();
@@ -153,11 +156,18 @@ impl Machine {
                 DiscOrbit { name: (*name).to_string(), x: along(&rows[0]), y: along(&rows[1]) }
             })
             .collect();
-        let top = self.model.profile.top_speed();
-        let prescribed = matches!(self.model.drive, Drive::Prescribed { .. });
+        let peaks = response_peaks(&response.speeds, &channels, &orbits);
+        let operating_speeds = self.operating_speeds(study);
+        let excited = |pole: &Pole| pole.is_excited_by(&self.assembly.unbalance_amplitude(pole.at));
+        let named: Vec<_> = peaks.iter().map(|peak| (peak.response.clone(), peak.peak)).collect();
+        let within: Vec<Pole> =
+            poles.into_iter().filter(|pole| (range[0]..=range[1]).contains(&pole.at)).collect();
         Ok(UnbalanceResult {
-            peaks: response_peaks(&response.speeds, &channels, &orbits),
-            operating_speed: Some(top).filter(|top| *top > 0.0 && prescribed),
+            margins: separation_margins(&within, &named, excited, operating_speeds),
+            bearing_forces: self.bearing_forces(&response, &undamped),
+            shaft: self.shaft_amplitudes(&response, &undamped, operating_speeds)?,
+            peaks,
+            operating_speeds,
             response,
             requested,
             channels,

@@ -194,7 +194,7 @@ codes! {
     OrdersInOneBand, "orders-in-one-band", Caution,
         "Two orders that the Vold-Kalman filter tracks lie in one pass band: their amplitudes are told apart only as far as \
          they change more slowly than the two beat.",
-        "narrow study.orders.bandwidth, as far as the amplitudes change slowly enough for it, or track one of the two";
+        "narrow study.orders.bandwidth (or --bandwidth), as far as the amplitudes change slowly enough for it, or track one of the two";
     TachoJitter, "tacho-jitter", Caution,
         "A tracked order lies beside a stronger one which the jitter of the tacho pulses modulates: part of what is read there is \
          the stronger order's.",

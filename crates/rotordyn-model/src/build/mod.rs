@@ -26,6 +26,7 @@ mod places;
 mod plausibility;
 mod radial_bearing;
 mod rotor;
+mod rotor_studies;
 mod run_keys;
 mod shaft;
 mod springs;

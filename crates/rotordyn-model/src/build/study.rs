@@ -6,6 +6,7 @@ use super::increasing::check_increasing;
 use super::loading::{self, DirectionKeys, QUANTITIES, anchor_and_direction};
 use super::orders::{ORDER, orders};
 use super::places::{AnchorKeys, Places};
+use super::rotor_studies::{self, RotorStudyKeys};
 use super::run_keys::{
     IntegratorKeys, RUN_STEP, StepKeys, channels, default_integrator, default_step_us, integrator, top_speed,
 };
@@ -35,7 +36,11 @@ keys! {
 
 static STUDY_TABLE: Table = Table {
     meaning: "Studies of the machine; each is done if its table is in the file, with defaults if that is empty.",
-    groups: &[Group::always(StudyKeys::LIST), Group::always(SteadyStudyKeys::LIST)],
+    groups: &[
+        Group::always(StudyKeys::LIST),
+        Group::always(RotorStudyKeys::LIST),
+        Group::always(SteadyStudyKeys::LIST),
+    ],
 };
 
 keys! {
@@ -137,6 +142,8 @@ keys! {
     static UNBALANCE: UnbalanceStudyKeys {
         speeds: Spaced = spaced(not_negative(SPEED), "Speeds, increasing.").example(SPEEDS);
         refine: Flag = flag("Add speeds around the critical speeds.").default("true");
+        operating_speeds: Spaced = spaced(positive(SPEED), rotor_studies::OPERATING_SPEEDS)
+            .computed("the highest of [speed]").example("\"2800, 3200 rpm\"");
     }
 }
 
@@ -254,7 +261,8 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
     if let Some(r) = all.table(&STUDY.unbalance) {
         let responses = responses(&r, model, MotionQuantity::Displacement);
         let (speeds, refine) = (speeds(&r, &UNBALANCE.speeds), r.flag(&UNBALANCE.refine));
-        studies.unbalance = Some(UnbalanceStudy { speeds, refine, responses });
+        let operating_speeds = rotor_studies::operating_speeds(&r, &UNBALANCE.operating_speeds);
+        studies.unbalance = Some(UnbalanceStudy { speeds, refine, responses, operating_speeds });
         if model.unbalances.is_empty() && r.has_no_errors() {
             let problem = Problem::new(Kind::MissingKey, &r.span, "study.unbalance needs an unbalance");
             r.log.error(problem.hint("add [unbalance.NAME] with station and magnitude"));
@@ -286,6 +294,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
         work_limits::check_run_up(&r, [&RUN_STEP.step, &RUN_UP.sample_rate], study, model.profile.duration());
         r.finish();
     }
+    rotor_studies::read(&all, model, &mut studies);
     steady::read(&all, model, &mut studies);
     let sites = model.bearings.iter().map(|site| (&site.name, &site.bearing));
     studies.bearing = bearing(&all, sites);

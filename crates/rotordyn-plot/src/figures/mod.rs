@@ -4,9 +4,13 @@
 //! |---|---|
 //! | `machine_layout` | layout of the machine, side view |
 //! | `static_deflection`, `ball_loads` | static equilibrium |
-//! | `modes_<speed>rpm`, `campbell` | mode shapes, Campbell diagram |
+//! | `static_shaft_loads`, `unbalance_shaft_loads_<speed>rpm` | deflection, shear force and bending moment along the shaft |
+//! | `modes_<speed>rpm`, `campbell`, `stability` | mode shapes, Campbell diagram, log decrement over speed |
+//! | `critical_map` | undamped critical speeds over bearing stiffness |
+//! | `torsional_interference`, `torsional_modes` | torsional natural frequencies with order lines, twist along the shaft |
 //! | `frf_<excitation>` | frequency response functions (Bode plots), rotations separately (`_rotation`) |
 //! | `unbalance_bode_<quantity>`, `unbalance_polar_<quantity>`, `unbalance_orbits` | synchronous unbalance response: Bode plot, polar (Nyquist) plot, orbits |
+//! | `unbalance_bearing_forces` | dynamic force of every bearing over speed, with its static force |
 //! | `run_up_<channel>`, `run_up_bearing_<bearing>`, `run_up_energy` | time histories of the run-up |
 //! | `run_up_bearing_<bearing>_cage`, `..._cage_orbit` | run-up with free balls: cage speed, slip, pocket force, friction torque; orbit of the cage |
 //! | `spectrogram_<channel>`, `waterfall_<channel>` | spectra over speed with the linear Campbell lines |
@@ -35,9 +39,11 @@ mod machine;
 mod named;
 mod order_tracks;
 mod response;
+mod rotor_maps;
 mod run;
 mod run_free_ball;
 mod run_up_correlation;
+mod shaft_loads;
 mod signal;
 mod signal_orders;
 mod signal_units;
@@ -106,13 +112,23 @@ fn with_concerns<'a>(
     };
     let equilibrium = results.equilibrium.iter().flat_map(|found| machine::equilibrium(found, machine));
     add(&["static"], equilibrium.collect());
+    let loaded = results.equilibrium.iter().filter_map(|found| shaft_loads::at_rest(found, machine));
+    add(&["static"], loaded.collect());
     add(&["modal"], results.modal.iter().map(|found| machine::modes(found, machine)).collect());
     add(&["campbell"], results.campbell.iter().map(|found| campbell::campbell(found, machine)).collect());
+    let stability = results.campbell.iter().filter_map(|found| rotor_maps::stability(found, machine));
+    add(&["campbell"], stability.collect());
+    let map = results.critical_map.iter().filter_map(|found| rotor_maps::critical_map(found, machine));
+    add(&["critical_map"], map.collect());
+    let torsional = results.torsional.iter().flat_map(|found| rotor_maps::torsional(found, machine));
+    add(&["torsional"], torsional.collect());
     add(&["frf"], results.frf.iter().flat_map(|found| response::frf(found, machine)).collect());
     let criticals = response::criticals(results);
     let unbalance =
         results.unbalance.iter().flat_map(|found| response::unbalance(found, &criticals, machine));
     add(&["unbalance"], unbalance.collect());
+    let loaded = results.unbalance.iter().flat_map(|found| shaft_loads::under_unbalance(found, machine));
+    add(&["unbalance"], loaded.collect());
     if let Some(found) = &results.run_up {
         add(&["run_up"], run::histories(&found.history, machine));
         add(&["run_up"], run_free_ball::figures(&found.history, machine)?);
@@ -158,6 +174,8 @@ fn studies_of_section(section: &str) -> &'static [&'static str] {
         "modal" => &["modal"],
         "campbell" => &["campbell"],
         "critical_speeds" => &["critical"],
+        "critical_map" => &["critical_map"],
+        "torsional" => &["torsional"],
         "frf" => &["frf"],
         "unbalance" => &["unbalance"],
         "run_up" => &["run_up"],

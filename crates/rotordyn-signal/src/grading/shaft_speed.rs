@@ -75,27 +75,38 @@ pub fn shaft_speed(
     let centred: Vec<f64> = record.iter().map(|x| x - mean).collect();
     let spectrum = amplitude_spectrum(&centred, sample_rate, WindowKind::Hann, Level::Peak)?;
     let windowed = WindowedRecord::new(&centred);
-    let near = |speed: f64| family(&windowed, &LineSpectrum::new(&spectrum, speed, None), speed, range);
-    if let Some(speed) = near(stated) {
+    let near = |speed: f64, new: &dyn Fn(usize) -> bool| {
+        family(&windowed, &LineSpectrum::new(&spectrum, speed, None), speed, range, new)
+    };
+    if let Some(speed) = near(stated, &|_| true) {
         return Ok(SpeedFinding::Found(speed));
     }
     let elsewhere = OTHER_RATIOS.iter().filter_map(|ratio| {
         let turns_enough = turns * ratio >= 10.0;
-        Some((*ratio, turns_enough.then(|| near(stated * ratio)).flatten()?))
+        // Of a slower shaft those harmonics speak that the stated speed does not have.
+        let is_new = |n: usize| *ratio > 1.0 || (n as f64 * ratio).fract() != 0.0;
+        Some((*ratio, turns_enough.then(|| near(stated * ratio, &is_new)).flatten()?))
     });
     let most = elsewhere.max_by_key(|(_, speed)| speed.harmonics);
     Ok(most.map_or(SpeedFinding::NotFound, |(ratio, speed)| SpeedFinding::Elsewhere { speed, ratio }))
 }
 
-/// The family of harmonics within ± `range` of a speed, if enough of them stand.
-fn family(record: &WindowedRecord, lines: &LineSpectrum, stated: f64, range: f64) -> Option<RecordSpeed> {
+/// The family of harmonics within ± `range` of a speed, if enough of those that count stand.
+fn family(
+    record: &WindowedRecord,
+    lines: &LineSpectrum,
+    stated: f64,
+    range: f64,
+    counts: &dyn Fn(usize) -> bool,
+) -> Option<RecordSpeed> {
     let step = lines.step;
     let count = HARMONICS.min((lines.end() / (stated * (1.0 + range))) as usize);
     let score = |speed: f64| (1..=count).map(|n| limited(lines.evidence(n as f64 * speed))).sum::<f64>();
     let trials = (range * stated * HARMONICS as f64 / step).ceil() as i64;
     let coarse = best_of(stated, step / HARMONICS as f64, trials, score);
     let standing: Vec<usize> = (1..=count).filter(|n| lines.evidence(*n as f64 * coarse) >= STANDS).collect();
-    if standing.len() < FAMILY || standing.iter().all(|n| *n > 2) {
+    let counted = standing.iter().filter(|n| counts(**n)).count();
+    if counted < FAMILY || standing.iter().all(|n| *n > 2) {
         return None;
     }
     // Power over the noise's of an amplitude near harmonic n.

@@ -67,6 +67,22 @@ fn wrong_sampling_rate_is_noticed() {
     assert!((speed.speed / (0.25 * stated) - 1.0).abs() < 2e-3, "{speed:?}");
 }
 
+/// Orders 2 and 4 of the stated speed are too few for its family, and no family of a slower shaft.
+#[test]
+fn lines_of_the_stated_speed_suggest_no_other() {
+    let stated = 29.95;
+    for number in 0..20 {
+        let random = &mut Random::of_record(23, number);
+        let lines = [2.0, 4.0].map(|n| (n * stated, 0.3, random.phase()));
+        let record = sum(&white(random), &tones(&lines), 1.0);
+        let found = shaft_speed(&record, RATE, stated, 0.02).unwrap();
+        assert!(
+            !matches!(found, SpeedFinding::Elsewhere { ratio, .. } if ratio < 1.0),
+            "{number}: {found:?}"
+        );
+    }
+}
+
 /// Noise has no shaft family: none of 40 records (a false family in one of 1000).
 #[test]
 fn noise_has_no_speed() {

@@ -298,7 +298,6 @@ impl<'a> Job<'a> {
             Analysis::Jerk => out.jerk = Some(self.jerk()?),
             Analysis::Orders => {
                 let found = self.orders()?;
-                out.warnings.extend(self.orders_in_one_band(&found));
                 out.orders = Some(found);
             }
             Analysis::Average => out.average = Some(self.average()?),

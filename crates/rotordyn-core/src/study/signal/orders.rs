@@ -1,12 +1,11 @@
 //! Order tracking and time-synchronous average.
 
 use super::{DEFAULT_MAX_ORDER, Job, MIN_SPEED, characteristic_rates};
-use crate::document::number;
 use crate::results::{OrderLine, ShaftAverage, ShaftOrders};
 use rotordyn_signal::SignalError;
 use rotordyn_signal::bearing_lines::BearingPart;
 use rotordyn_signal::order::{OrderSettings, OrderTracker};
-use rotordyn_signal::order_tracks::{order_tracks, orders_in_one_band};
+use rotordyn_signal::order_tracks::order_tracks;
 use rotordyn_signal::resample::{AngleResampler, SAMPLES_PER_ORDER};
 use rotordyn_signal::statistics::statistics;
 use rotordyn_signal::synchronous::synchronous_average;
@@ -59,22 +58,6 @@ impl Job<'_> {
         let jitter = self.shaft.and_then(|shaft| shaft.jitter);
         let leaks = tracks.as_ref().zip(jitter).map(|(found, jitter)| jitter.leaks(found, LEAK_SHARE));
         Ok(ShaftOrders { cuts: cuts?, average, map, tracks, jitter_leaks: leaks.unwrap_or_default() })
-    }
-
-    /// A warning for every pair of tracked orders that the bandwidth does not separate.
-    pub(super) fn orders_in_one_band(&self, found: &ShaftOrders) -> Vec<String> {
-        let Some(tracks) = &found.tracks else { return Vec::new() };
-        let orders: Vec<f64> = tracks.tracks.iter().map(|track| track.order).collect();
-        let text = |pair: [usize; 2]| {
-            let [a, b] = pair.map(|k| &found.cuts[k].0.label);
-            format!(
-                "{}: {a} and {b} lie in one pass band of {} orders: their amplitudes are told apart only as far as they change \
-                 more slowly than the two beat; a narrower bandwidth separates them",
-                self.channel.name,
-                number(tracks.bandwidth, 3)
-            )
-        };
-        orders_in_one_band(&orders, tracks.bandwidth).into_iter().map(text).collect()
     }
 
     /// The orders asked for, by default 1x, 2x and the bearing's characteristic orders.

@@ -1,0 +1,189 @@
+//! Closed forms of the critical speed map, of log decrements on cross-coupled bearings, and of torsional modes.
+
+use crate::machine::{disc, element, shaft};
+use nalgebra::Complex;
+use rotordyn::bearing::{Bearing, LinearBearing, LinearBearingRow};
+use rotordyn::element::{Anchor, Joint, ShaftElement, ShearCoefficient};
+use rotordyn::model::study::{CampbellStudy, CriticalMapStudy, TorsionalStudy};
+use rotordyn::model::{BearingSite, Drive, Model};
+use rotordyn::study::Machine;
+use std::f64::consts::{PI, TAU};
+
+/// Elements of a bar of 1 m, rigid in shear and without rotary inertia.
+fn bars(diameter: f64, density: f64) -> Vec<ShaftElement> {
+    let mut bar = ShaftElement {
+        shear: ShearCoefficient::Rigid,
+        rotary_inertia: false,
+        ..element(0.05, diameter, diameter)
+    };
+    bar.material.density = density;
+    vec![bar; 20]
+}
+
+fn rows(speeds: &[f64], matrices: impl Fn(f64) -> [[[f64; 6]; 6]; 2]) -> Vec<LinearBearingRow> {
+    let row = |&speed: &f64| {
+        let [stiffness, damping] = matrices(speed);
+        LinearBearingRow { speed, stiffness, damping }
+    };
+    speeds.iter().map(row).collect()
+}
+
+fn site(node: usize, name: &str, table: Vec<LinearBearingRow>) -> BearingSite {
+    let bearing = Bearing::Linear(LinearBearing { table, beyond: Default::default() });
+    BearingSite { name: name.into(), node, housing: Anchor::GROUND, bearing }
+}
+
+fn springs(k: f64) -> [[[f64; 6]; 6]; 2] {
+    let mut stiffness = [[0.0; 6]; 6];
+    (stiffness[0][0], stiffness[1][1], stiffness[2][2]) = (k, k, 1e6);
+    [stiffness, [[0.0; 6]; 6]]
+}
+
+fn on_springs(mut model: Model, k: f64) -> Machine {
+    model.bearings =
+        vec![site(0, "A", rows(&[0.0], |_| springs(k))), site(20, "B", rows(&[0.0], |_| springs(k)))];
+    model.drive = Drive::Prescribed { node: Some(0) };
+    Machine::new(model).unwrap()
+}
+
+fn map(machine: &Machine, [lowest, highest]: [f64; 2], max_speed: f64) -> rotordyn::results::CriticalMap {
+    let study = CriticalMapStudy {
+        max_speed,
+        lowest_stiffness: Some(lowest),
+        highest_stiffness: Some(highest),
+        points: 31,
+    };
+    machine.critical_map(&study).unwrap()
+}
+
+/// A uniform beam: rigid-body modes √(2k/m) and √(6k/m) on soft supports, then the free-free (β L = 4.7300), and on
+/// stiff ones the pinned critical speeds (β L = nπ).
+#[test]
+fn critical_speed_map_between_free_and_pinned_beam() {
+    let (d, density) = (0.01, 7850.0);
+    let machine = on_springs(shaft(bars(d, density)), 1e5);
+    let area = PI / 4.0 * d * d;
+    let bending = (2.1e11 * PI / 64.0 * d.powi(4) / (density * area)).sqrt();
+    let found = map(&machine, [1e-2, 1e12], 3000.0);
+    let last = found.stiffness.len() - 1;
+    // Gyroscopic effect of the shaft, (β d)²/16 < 2e-4, and the elasticity of the beam in its rigid-body modes.
+    let close = |speed: f64, expected: f64| {
+        assert!((speed / expected - 1.0).abs() < 1e-3, "{speed} is not {expected}");
+    };
+    for n in 1..=4 {
+        // E I β⁴ = Ω² (ρA − ρ I_p β²) without rotary inertia, I_p/A = d²/8; the elements add (β h)⁴/1440.
+        let beta = n as f64 * PI;
+        let expected = beta * beta * bending / (1.0 - beta * beta * d * d / 8.0).sqrt();
+        let speed = found.curves[n - 1].speeds[last];
+        assert!((speed / expected - 1.0).abs() < 2e-4, "{speed} is not {expected}");
+    }
+    let mass = density * area;
+    close(found.curves[0].speeds[0], (2.0 * 1e-2 / mass).sqrt());
+    close(found.curves[1].speeds[0], (6.0 * 1e-2 / mass).sqrt());
+    close(found.curves[2].speeds[0], 4.730_040_75_f64.powi(2) * bending);
+    // Stiffer supports never lower a critical speed.
+    for curve in &found.curves {
+        let finite: Vec<f64> = curve.speeds.iter().copied().filter(|s| s.is_finite()).collect();
+        assert!(finite.windows(2).all(|pair| pair[1] >= pair[0] * (1.0 - 1e-9)), "{curve:?}");
+    }
+}
+
+/// A disc of 10 kg amid a light shaft: Ω² = k/m with 1/k = 1/(2 k_b) + L³/(48 E I); also where the curve meets the
+/// bearings' own stiffness.
+#[test]
+fn critical_speed_map_of_jeffcott_rotor() {
+    let mut model = shaft(bars(0.03, 1.0));
+    model.discs = vec![disc(10, 10.0, 0.02, 0.01)];
+    let machine = on_springs(model, 5e5);
+    let shaft_stiffness = 48.0 * 2.1e11 * PI / 64.0 * 0.03_f64.powi(4);
+    let closed = |k: f64| (1.0 / (1.0 / (2.0 * k) + 1.0 / shaft_stiffness) / 10.0).sqrt();
+    let found = map(&machine, [1e3, 1e9], 600.0);
+    for (k, speed) in found.stiffness.iter().zip(&found.curves[0].speeds) {
+        // The mass of the shaft is 7e-5 of the disc's, of which 1/2 counts at most.
+        assert!((speed / closed(*k) - 1.0).abs() < 4e-5, "{k}: {speed} {}", closed(*k));
+    }
+    let crossing = found.crossings.iter().find(|c| c.mode == found.curves[0].label).unwrap();
+    assert_eq!(crossing.bearing, "A x, A y, B x, B y");
+    assert!((crossing.stiffness / 5e5 - 1.0).abs() < 1e-8, "{crossing:?}");
+    assert!((crossing.speed / closed(5e5) - 1.0).abs() < 4e-5, "{crossing:?}");
+}
+
+/// A rigid rotor on cross-coupled bearings k_xy = −k_yx = κΩ: m s² + c s + k − j κΩ = 0, unstable above c √(k/m)/κ.
+#[test]
+fn log_decrement_on_cross_coupled_bearings() {
+    let (mass, k, c, kappa) = (10.0, 5e6, 300.0, 600.0);
+    let mut model = shaft(Vec::new());
+    model.node_z = vec![-0.2, 0.0, 0.2];
+    model.rigid_rotor = Some(disc(1, mass, 1e-6, mass * 0.04 / 4.0));
+    let matrices = |speed: f64| {
+        let [mut stiffness, mut damping] = springs(k);
+        (stiffness[0][1], stiffness[1][0]) = (kappa * speed, -kappa * speed);
+        (damping[0][0], damping[1][1], damping[2][2]) = (c, c, 4000.0);
+        [stiffness, damping]
+    };
+    let table = || rows(&[0.0, 2000.0], matrices);
+    model.bearings = vec![site(0, "A", table()), site(2, "B", table())];
+    model.drive = Drive::Prescribed { node: Some(1) };
+    let machine = Machine::new(model).unwrap();
+    let speeds: Vec<f64> = (0..17).map(|k| 50.0 * f64::from(k)).collect();
+    let study = CampbellStudy { speeds, modes: 5, orders: vec![1.0], speed_dependent_bearings: true };
+    let found = machine.campbell(&study).unwrap();
+    let least = found.least_damped();
+    assert_eq!(least.len(), 17);
+    for point in &least {
+        let root = Complex::new(4.0 * c * c - 8.0 * mass * k, 8.0 * mass * kappa * point.speed).sqrt();
+        let decrement = |s: Complex<f64>| -TAU * s.re / s.im.abs();
+        let expected = [1.0, -1.0]
+            .map(|sign| decrement((Complex::new(-2.0 * c, 0.0) + root * sign) / (2.0 * mass)))
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        assert!((point.log_decrement - expected).abs() < 1e-9, "{point:?} {expected}");
+    }
+    // m s² + 2 c s + 2 k = j 2 κΩ: Im gives 2 c ω = 2 κΩ.
+    let threshold = c * (2.0 * k / mass).sqrt() / kappa;
+    assert!((found.thresholds[0].speed / threshold - 1.0).abs() < 1e-9 && found.thresholds[0].unstable_above);
+}
+
+/// Two discs at the ends of a shaft: ω² = k (J₁ + J₂)/(J₁ J₂), k = G I_p/L; driven at the first: ω² = k/J₂.
+#[test]
+fn torsion_of_two_discs() {
+    let model = |drive: Option<usize>| {
+        let mut model = shaft(bars(0.02, 1.0));
+        model.discs = vec![disc(0, 5.0, 0.04, 0.02), disc(20, 5.0, 0.09, 0.05)];
+        let end = |node: usize, z: f64, axial: bool| Joint {
+            name: format!("pin {node}"),
+            a: Anchor::node(node),
+            b: Anchor { node: None, offset: [0.0, 0.0, z] },
+            locked: [true, true, axial, false, false, false],
+        };
+        model.joints = vec![end(0, 0.0, true), end(20, 1.0, false)];
+        model.drive = Drive::Prescribed { node: drive };
+        Machine::new(model).unwrap()
+    };
+    let k = 2.1e11 / 2.6 * PI / 32.0 * 0.02_f64.powi(4);
+    let study = TorsionalStudy {
+        max_speed: 500.0,
+        orders: vec![1.0, 2.0],
+        modes: 1,
+        operating_speeds: Some([100.0, 110.0]),
+    };
+    for (drive, square, rigid) in [(None, k * 0.13 / (0.04 * 0.09), 1), (Some(0), k / 0.09, 0)] {
+        let found = model(drive).torsional(&study).unwrap();
+        let omega = square.sqrt();
+        let mode = &found.found.modes[0];
+        // The shaft has 4e-7 of the smaller inertia.
+        assert!((TAU * mode.frequency_hz / omega - 1.0).abs() < 1e-6, "{mode:?} {omega}");
+        assert_eq!((found.found.rigid_rotations, found.found.coupled), (rigid, false));
+        // The twists of the discs balance: J₁ θ₁ + J₂ θ₂ = 0.
+        let twist = [mode.twist[0], mode.twist[20]];
+        let expected = if drive.is_none() { [1.0, -0.04 / 0.09] } else { [0.0, 1.0] };
+        assert!(twist.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{twist:?}");
+        let met: Vec<f64> = found.interferences.iter().map(|i| i.speed).collect();
+        assert_eq!(met.len(), 2);
+        assert!((met[0] / (0.5 * omega) - 1.0).abs() < 1e-6 && (met[1] / omega - 1.0).abs() < 1e-6);
+        for i in &found.interferences {
+            let expected = if i.speed < 100.0 { 1.0 - i.speed / 100.0 } else { i.speed / 110.0 - 1.0 };
+            assert!((i.separation.unwrap() - expected.max(0.0)).abs() < 1e-12, "{i:?}");
+        }
+    }
+}
