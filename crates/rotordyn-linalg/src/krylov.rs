@@ -284,16 +284,17 @@ impl<'a> Arnoldi<'a> {
         relative_size(&self.correction(&load, &x), &x) > NEGLIGIBLE
     }
 
-    /// (K + σ C + σ² M)⁻¹ (b − (K + σ C + σ² M) x); zero with a dense part, whose size is limited.
+    /// (K + σ C + σ² M)⁻¹ (b − (K + σ C + σ² M) x).
     fn correction(&self, b: &[f64], x: &[f64]) -> Vec<f64> {
-        if self.part.dense.is_some() {
-            return vec![0.0; x.len()];
-        }
         let mut residual = PreciseResidual::of(b);
         // Their sum is rounded, so that its rows no longer cancel for rigid-body motion.
         residual.subtract(1.0, &self.part.k, x);
         residual.subtract(self.part.shift, &self.part.damp, x);
         let mut out = residual.values();
+        if let Some(dense) = &self.part.dense {
+            // Damping acts on what the motion is, not on small differences of it: its products need no more digits.
+            dense.mul_add(-self.part.shift, x, &mut out);
+        }
         self.lu.solve(&mut out);
         out
     }

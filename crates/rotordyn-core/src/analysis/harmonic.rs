@@ -69,7 +69,7 @@ impl HarmonicSolver<'_> {
         let of = self.of;
         let (m, d, s) = (&of.mass, &of.damping, &of.stiffness);
         let square = omega * omega;
-        self.omega = omega;
+        (self.omega, self.refined) = (omega, false);
         match &of.modal {
             Some((modal, k)) if omega > 0.0 => {
                 let ratio = modal.ratio(omega);
@@ -77,25 +77,28 @@ impl HarmonicSolver<'_> {
                     Complex64::new(s[i] - square * m[i], omega * d[i] + ratio * (square * m[i] + k[i]))
                 })
             }
-            None if self.of.layout.groups().any(|group| group.len() >= MANY_UNKNOWNS) => {
-                self.lu.refactor(|i| Complex64::new(s[i] - square * m[i], omega * d[i]))?;
-                self.refined = self.shows_round_off();
-                Ok(())
-            }
             _ => self.lu.refactor(|i| Complex64::new(s[i] - square * m[i], omega * d[i])),
-        }
+        }?;
+        self.refined = of.layout.groups().any(|group| group.len() >= MANY_UNKNOWNS) && self.shows_round_off();
+        Ok(())
     }
 
     /// Replaces f by the response q; unknowns outside the prepared groups must be zero.
     pub fn solve(&self, f: &mut [Complex64]) {
-        let Some((modal, _)) = self.of.modal.as_ref().filter(|_| self.omega > 0.0) else {
-            let load = if self.refined { f.to_vec() } else { Vec::new() };
-            self.lu.solve(f);
-            if self.refined {
-                refine(f, |q| self.correction(&load, q));
-            }
-            return;
-        };
+        let load = if self.refined { f.to_vec() } else { Vec::new() };
+        self.solve_directly(f);
+        if self.refined {
+            refine(f, |q| self.correction(&load, q));
+        }
+    }
+
+    /// Modal damping, if it acts at this frequency.
+    fn modal(&self) -> Option<&ModalDamping> {
+        self.of.modal.as_ref().filter(|_| self.omega > 0.0).map(|(modal, _)| *modal)
+    }
+
+    fn solve_directly(&self, f: &mut [Complex64]) {
+        let Some(modal) = self.modal() else { return self.lu.solve(f) };
         let load = f.to_vec();
         self.lu.solve(f);
         let n = f.len();
@@ -129,7 +132,7 @@ impl HarmonicSolver<'_> {
         let reached: HashSet<usize> = self.of.layout.groups().flatten().copied().collect();
         load.iter_mut().enumerate().filter(|(i, _)| !reached.contains(i)).for_each(|(_, f)| *f = 0.0.into());
         let mut q = load.clone();
-        self.lu.solve(&mut q);
+        self.solve_directly(&mut q);
         relative_size(&self.correction(&load, &q), &q) > NEGLIGIBLE
     }
 
@@ -148,7 +151,13 @@ impl HarmonicSolver<'_> {
             residual
         };
         let mut out = complex_values(&part(&load_re, &re, &im, -1.0), &part(&load_im, &im, &re, 1.0));
-        self.lu.solve(&mut out);
+        if let Some(modal) = self.modal() {
+            // Damping acts on what the motion is, not on small differences of it: its products need no more digits.
+            for (o, c) in out.iter_mut().zip(modal.matrix.mul_complex(q)) {
+                *o -= Complex64::new(0.0, omega) * c;
+            }
+        }
+        self.solve_directly(&mut out);
         out
     }
 
