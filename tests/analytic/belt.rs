@@ -132,10 +132,10 @@ fn run(machine: &Machine) -> ([f64; 2], f64) {
 fn transient_from_equilibrium_stays_at_equilibrium() {
     for constant in [true, false] {
         let (last, deviation) = run(&machine(constant, ""));
-        for axis in 0..2 {
+        for (axis, end) in last.into_iter().enumerate() {
             agree::relative(
                 format_args!("end of the run, constant pull {constant}, axis {axis} [m]"),
-                last[axis],
+                end,
                 static_displacement(constant, axis),
                 1e-8,
             );

@@ -240,7 +240,7 @@ fn shortened(digits: &str) -> String {
 fn error(row: &Row) -> String {
     let scale = if row.relative { 1.0 } else { row.reference.abs().max(row.tolerance) };
     match row.error {
-        e if e == 0.0 => "0".into(),
+        0.0 => "0".into(),
         e if e < 1e-12 * scale => format!("< {}", one_digit(1e-12 * scale)),
         e => one_digit(e),
     }

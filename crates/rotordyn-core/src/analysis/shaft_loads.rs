@@ -82,7 +82,7 @@ pub fn under_unbalance(
 
 impl ShaftPoint {
     /// Where along the shaft a quantity is largest: the point and the value there.
-    pub fn largest<'a>(points: &'a [Self], of: impl Fn(&Self) -> f64) -> Option<(&'a Self, f64)> {
+    pub fn largest(points: &[Self], of: impl Fn(&Self) -> f64) -> Option<(&Self, f64)> {
         points.iter().map(|point| (point, of(point))).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
@@ -105,7 +105,7 @@ impl ShaftPoint {
 
 impl ShaftAmplitude {
     /// Where along the shaft a quantity is largest: the point and the value there.
-    pub fn largest<'a>(points: &'a [Self], of: impl Fn(&Self) -> f64) -> Option<(&'a Self, f64)> {
+    pub fn largest(points: &[Self], of: impl Fn(&Self) -> f64) -> Option<(&Self, f64)> {
         points.iter().map(|point| (point, of(point))).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
