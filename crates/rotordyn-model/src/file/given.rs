@@ -5,7 +5,7 @@ use super::tree::{Table, Value};
 /// A value of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GivenValue {
-    /// Path of its key, "bearing.A.balls", "shaft.section[0].length".
+    /// Path of its key: `bearing.A.balls`, `shaft.section[0].length`.
     pub path: String,
     /// As it is written.
     pub value: String,
