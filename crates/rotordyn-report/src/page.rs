@@ -111,6 +111,7 @@ pub fn html(report: &Report) -> Result<String, ReportError> {
         ("{title}", escape(&title)),
         ("{subtitle}", escape(&subtitle.join(" · "))),
         ("{version}", escape(env!("CARGO_PKG_VERSION"))),
+        ("{identity}", escape(&text("identity")?)),
         ("{style}", STYLE.into()),
         ("{overview}", overview::section(reader, machine, &lines, &notes)?),
         ("{model}", model_table::section(given, defaults, &text("model")?)),
