@@ -1,5 +1,6 @@
 //! Closed forms of the critical speed map, of log decrements on cross-coupled bearings, and of torsional modes.
 
+use crate::agree;
 use crate::machine::{disc, element, shaft};
 use nalgebra::Complex;
 use rotordyn::bearing::{Bearing, LinearBearing, LinearBearingRow};
@@ -67,20 +68,20 @@ fn critical_speed_map_between_free_and_pinned_beam() {
     let found = map(&machine, [1e-2, 1e12], 3000.0);
     let last = found.stiffness.len() - 1;
     // Gyroscopic effect of the shaft, (β d)²/16 < 2e-4, and the elasticity of the beam in its rigid-body modes.
-    let close = |speed: f64, expected: f64| {
-        assert!((speed / expected - 1.0).abs() < 1e-3, "{speed} is not {expected}");
+    let close = |mode: &str, speed: f64, expected: f64| {
+        agree::relative(format_args!("free beam, {mode} [rad/s]"), speed, expected, 1e-3);
     };
     for n in 1..=4 {
         // E I β⁴ = Ω² (ρA − ρ I_p β²) without rotary inertia, I_p/A = d²/8; the elements add (β h)⁴/1440.
         let beta = n as f64 * PI;
         let expected = beta * beta * bending / (1.0 - beta * beta * d * d / 8.0).sqrt();
         let speed = found.curves[n - 1].speeds[last];
-        assert!((speed / expected - 1.0).abs() < 2e-4, "{speed} is not {expected}");
+        agree::relative(format_args!("pinned beam, critical speed {n} [rad/s]"), speed, expected, 2e-4);
     }
     let mass = density * area;
-    close(found.curves[0].speeds[0], (2.0 * 1e-2 / mass).sqrt());
-    close(found.curves[1].speeds[0], (6.0 * 1e-2 / mass).sqrt());
-    close(found.curves[2].speeds[0], 4.730_040_75_f64.powi(2) * bending);
+    close("translation", found.curves[0].speeds[0], (2.0 * 1e-2 / mass).sqrt());
+    close("rotation", found.curves[1].speeds[0], (6.0 * 1e-2 / mass).sqrt());
+    close("1st bending", found.curves[2].speeds[0], 4.730_040_75_f64.powi(2) * bending);
     // Stiffer supports never lower a critical speed.
     for curve in &found.curves {
         let finite: Vec<f64> = curve.speeds.iter().copied().filter(|s| s.is_finite()).collect();
@@ -100,12 +101,12 @@ fn critical_speed_map_of_jeffcott_rotor() {
     let found = map(&machine, [1e3, 1e9], 600.0);
     for (k, speed) in found.stiffness.iter().zip(&found.curves[0].speeds) {
         // The mass of the shaft is 7e-5 of the disc's, of which 1/2 counts at most.
-        assert!((speed / closed(*k) - 1.0).abs() < 4e-5, "{k}: {speed} {}", closed(*k));
+        agree::relative("critical speed over stiffness [rad/s]", *speed, closed(*k), 4e-5);
     }
     let crossing = found.crossings.iter().find(|c| c.mode == found.curves[0].label).unwrap();
     assert_eq!(crossing.bearing, "A x, A y, B x, B y");
-    assert!((crossing.stiffness / 5e5 - 1.0).abs() < 1e-8, "{crossing:?}");
-    assert!((crossing.speed / closed(5e5) - 1.0).abs() < 4e-5, "{crossing:?}");
+    agree::relative("stiffness of the crossing [N/m]", crossing.stiffness, 5e5, 1e-8);
+    agree::relative("speed of the crossing [rad/s]", crossing.speed, closed(5e5), 4e-5);
 }
 
 /// A rigid rotor on cross-coupled bearings k_xy = −k_yx = κΩ: m s² + c s + k − j κΩ = 0, unstable above c √(k/m)/κ.
@@ -137,11 +138,12 @@ fn log_decrement_on_cross_coupled_bearings() {
             .map(|sign| decrement((Complex::new(-2.0 * c, 0.0) + root * sign) / (2.0 * mass)))
             .into_iter()
             .fold(f64::INFINITY, f64::min);
-        assert!((point.log_decrement - expected).abs() < 1e-9, "{point:?} {expected}");
+        agree::absolute("least log decrement", point.log_decrement, expected, 1e-9);
     }
     // m s² + 2 c s + 2 k = j 2 κΩ: Im gives 2 c ω = 2 κΩ.
     let threshold = c * (2.0 * k / mass).sqrt() / kappa;
-    assert!((found.thresholds[0].speed / threshold - 1.0).abs() < 1e-9 && found.thresholds[0].unstable_above);
+    agree::relative("threshold of stability [rad/s]", found.thresholds[0].speed, threshold, 1e-9);
+    assert!(found.thresholds[0].unstable_above);
 }
 
 /// Two discs at the ends of a shaft: ω² = k (J₁ + J₂)/(J₁ J₂), k = G I_p/L; driven at the first: ω² = k/J₂.
@@ -172,18 +174,26 @@ fn torsion_of_two_discs() {
         let omega = square.sqrt();
         let mode = &found.found.modes[0];
         // The shaft has 4e-7 of the smaller inertia.
-        assert!((TAU * mode.frequency_hz / omega - 1.0).abs() < 1e-6, "{mode:?} {omega}");
+        agree::relative("torsional natural frequency [rad/s]", TAU * mode.frequency_hz, omega, 1e-6);
         assert_eq!((found.found.rigid_rotations, found.found.coupled), (rigid, false));
         // The twists of the discs balance: J₁ θ₁ + J₂ θ₂ = 0.
         let twist = [mode.twist[0], mode.twist[20]];
         let expected = if drive.is_none() { [1.0, -0.04 / 0.09] } else { [0.0, 1.0] };
-        assert!(twist.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{twist:?}");
+        for (found, expected) in twist.into_iter().zip(expected) {
+            agree::absolute("twist of a disc", found, expected, 1e-6);
+        }
         let met: Vec<f64> = found.interferences.iter().map(|i| i.speed).collect();
         assert_eq!(met.len(), 2);
-        assert!((met[0] / (0.5 * omega) - 1.0).abs() < 1e-6 && (met[1] / omega - 1.0).abs() < 1e-6);
+        agree::relative("speed at which 2x meets it [rad/s]", met[0], 0.5 * omega, 1e-6);
+        agree::relative("speed at which 1x meets it [rad/s]", met[1], omega, 1e-6);
         for i in &found.interferences {
             let expected = if i.speed < 100.0 { 1.0 - i.speed / 100.0 } else { i.speed / 110.0 - 1.0 };
-            assert!((i.separation.unwrap() - expected.max(0.0)).abs() < 1e-12, "{i:?}");
+            agree::absolute(
+                "separation from 100 to 110 rad/s",
+                i.separation.unwrap(),
+                expected.max(0.0),
+                1e-12,
+            );
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Deflection, shear force and bending moment of beams under their weight and single forces (Gere & Timoshenko,
 //! Mechanics of Materials, appendix G), and the balance of forces under unbalance.
 
+use crate::agree;
 use crate::machine::{disc, element, shaft};
 use rotordyn::analysis::section_loads::ShaftSections;
 use rotordyn::analysis::shaft_loads::ShaftPoint;
@@ -37,8 +38,9 @@ fn at_rest(model: Model) -> rotordyn::analysis::equilibrium::Equilibrium {
 }
 
 /// Relative to the largest value: solutions of ten elements have round-off of the stiffness over the load, 1e-10.
+#[track_caller]
 fn close(found: f64, expected: f64, largest: f64) {
-    assert!((found - expected).abs() < 1e-8 * largest, "{found} is not {expected}");
+    agree::curve("load or deflection along the shaft", found - expected, largest, 1e-8);
 }
 
 #[test]
@@ -60,7 +62,7 @@ fn simply_supported_beam_under_its_weight() {
         close(p.stress, 32.0 * p.moment[1] / (PI * 0.04_f64.powi(3)), 1e6);
     }
     let (middle, moment) = ShaftPoint::largest(&found.shaft, |p| p.moment[1]).unwrap();
-    assert!((middle.z - 0.5).abs() < 1e-12);
+    agree::absolute("place of the largest bending moment [m]", middle.z, 0.5, 1e-12);
     close(moment, top, top);
     let forces: Vec<_> = found.support_forces.iter().map(|r| (r.name.as_str(), r.force[1])).collect();
     assert_eq!([forces[0].0, forces[1].0], ["joint.pin 0", "joint.pin 10"]);
@@ -183,5 +185,10 @@ fn sections_under_unbalance_carry_the_bearing_forces() {
     off(sections[10].shear[0] - sections[9].shear[0], disc);
     // Circular whirl on isotropic supports: the amplitudes are those of one direction.
     let points = &found.shaft[0].points;
-    assert!((points[9].moment - sections[9].moment[0].norm()).abs() < 1e-8 * points[9].moment);
+    agree::relative(
+        "amplitude of a circular whirl [N m]",
+        points[9].moment,
+        sections[9].moment[0].norm(),
+        1e-8,
+    );
 }
