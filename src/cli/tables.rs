@@ -252,7 +252,7 @@ fn amplitude_text(size: f64, undamped: &[UndampedPeak], response: &str) -> Strin
 }
 
 pub fn unbalance(terminal: &Terminal, found: &UnbalanceResult) {
-    let speeds = &found.response.speeds;
+    let speeds = &found.speeds;
     let peak = |sizes: Vec<f64>| {
         let at = (0..sizes.len()).max_by(|a, b| sizes[*a].total_cmp(&sizes[*b]))?;
         Some((rpm(*speeds.get(at)?), sizes[at], at))

@@ -46,7 +46,7 @@ pub fn margins(terminal: &Terminal, found: &UnbalanceResult) {
 
 /// Largest dynamic force of every bearing, and that at the highest operating speed.
 pub fn bearing_forces(terminal: &Terminal, found: &UnbalanceResult) {
-    let speeds = &found.response.speeds;
+    let speeds = &found.speeds;
     let rows: Vec<Vec<String>> = found
         .bearing_forces
         .iter()

@@ -5,6 +5,7 @@ use crate::agree;
 use crate::machine::{disc, element, shaft};
 use rotordyn::analysis::section_loads::ShaftSections;
 use rotordyn::analysis::shaft_loads::ShaftPoint;
+use rotordyn::analysis::unbalance;
 use rotordyn::bearing::{Bearing, LinearBearing, LinearBearingRow};
 use rotordyn::element::{Anchor, Joint, ShearCoefficient};
 use rotordyn::linalg::Complex64;
@@ -124,6 +125,12 @@ fn on_springs(stiffness: [f64; 2], damping: f64) -> Machine {
     Machine::new(model).unwrap()
 }
 
+/// Amplitudes of all DOFs under unbalance.
+fn amplitudes(machine: &Machine, speeds: &[f64]) -> Vec<Vec<Complex64>> {
+    let tangents = |speed| machine.tangents(speed, true);
+    unbalance::response(&machine.assembly, speeds, &tangents, |motion| motion.amplitude).unwrap()
+}
+
 /// Σ F_bearing + U Ω² e^{jϕ} = −Ω² Σ m x: the bearing forces balance unbalance and inertia, in both directions.
 #[test]
 fn bearing_forces_balance_unbalance_and_inertia() {
@@ -137,9 +144,8 @@ fn bearing_forces_balance_unbalance_and_inertia() {
     };
     let found = machine.unbalance(&study).unwrap();
     let dofs = &machine.assembly.dofs;
-    for (k, &speed) in found.response.speeds.iter().enumerate() {
-        let momentum =
-            machine.assembly.full_mass.mul_complex(&dofs.expand_complex(&found.response.amplitudes[k]));
+    for ((k, &speed), q) in found.speeds.iter().enumerate().zip(amplitudes(&machine, &found.speeds)) {
+        let momentum = machine.assembly.full_mass.mul_complex(&dofs.expand_complex(&q));
         for axis in 0..2 {
             let pick = |force: &rotordyn::results::BearingForce| {
                 let pair = if axis == 0 { force.x[k] } else { force.y[k] };
@@ -170,7 +176,7 @@ fn sections_under_unbalance_carry_the_bearing_forces() {
     let study =
         UnbalanceStudy { speeds: vec![speed], refine: false, responses: Vec::new(), operating_speeds: None };
     let found = machine.unbalance(&study).unwrap();
-    let q = machine.assembly.dofs.expand_complex(&found.response.amplitudes[0]);
+    let q = machine.assembly.dofs.expand_complex(&amplitudes(&machine, &[speed])[0]);
     let sections = ShaftSections::new(&machine.model).at_speed(&q, speed);
     let complex = |[re, im]: [f64; 2]| Complex64::new(re, im);
     let [a, b] = [0, 1].map(|k| complex(found.bearing_forces[k].x[0]));

@@ -13,7 +13,7 @@ const RPM: f64 = TAU / 60.0;
 /// Largest amplitude of the first probe in a range of speeds.
 fn largest(found: &UnbalanceResult, range: [f64; 2]) -> f64 {
     let inside = |speed: &f64| (range[0]..=range[1]).contains(speed);
-    let sizes = found.response.speeds.iter().zip(&found.channels[0].amplitude);
+    let sizes = found.speeds.iter().zip(&found.channels[0].amplitude);
     sizes.filter(|(speed, _)| inside(speed)).map(|(_, [re, im])| re.hypot(*im)).fold(0.0, f64::max)
 }
 
@@ -36,9 +36,9 @@ fn every_peak_of_a_coarse_grid_is_that_of_a_fine_one() {
         };
         let grid = fine(300.0 * RPM, 9000.0 * RPM, 7);
         let found = run(grid.clone(), true);
-        assert!(found.requested.iter().zip(&grid).all(|(&k, speed)| found.response.speeds[k] == *speed));
+        assert!(found.requested.iter().zip(&grid).all(|(&k, speed)| found.speeds[k] == *speed));
         let peaks: Vec<_> = found.peaks.iter().filter(|p| p.response == "wheel_x").collect();
-        println!("{name}: {} points, {peaks:?}", found.response.speeds.len());
+        println!("{name}: {} points, {peaks:?}", found.speeds.len());
         assert!(!peaks.is_empty(), "{name}");
         // No peak of a fine grid over the whole range is missing.
         let whole = run(fine(300.0 * RPM, 9000.0 * RPM, 1500), false);
@@ -57,7 +57,6 @@ fn every_peak_of_a_coarse_grid_is_that_of_a_fine_one() {
             assert!((peak.amplitude / exact - 1.0).abs() < 1e-3, "{name}: {peak:?} {exact}");
             assert!((largest(&found, [low, high]) / exact - 1.0).abs() < 1e-3, "{name}: {peak:?} {exact}");
             let above: Vec<f64> = around
-                .response
                 .speeds
                 .iter()
                 .zip(&around.channels[0].amplitude)

@@ -96,6 +96,12 @@ fn search(
     Ok(pairs)
 }
 
+/// Vectors of the basis with which a search for `count` eigenpairs begins, each of the size of a complex shape; `block`: two
+/// without gyroscopic effect, else one.
+pub fn first_basis(count: usize, block: usize) -> usize {
+    12 + (2 + block) * count
+}
+
 /// Whether λ is oscillatory with Im λ > 0, and not a rigid-body mode.
 fn oscillatory(value: Complex64, shift: f64) -> bool {
     value.im > 1e-6 * value.norm() && value.norm() > 1e-3 * shift
@@ -185,7 +191,7 @@ impl<'a> Search<'a> {
     fn extend(&mut self, share: usize) -> Result<(), EigenError> {
         let Some(arnoldi) = &mut self.arnoldi else { return Ok(()) };
         let size = match arnoldi.columns.len() {
-            0 => 12 + (2 + arnoldi.block) * share,
+            0 => first_basis(share, arnoldi.block),
             size => size + 8 + size / 8,
         };
         if size >= 2 * self.part.order() - arnoldi.block {

@@ -1,7 +1,7 @@
 //! Campbell diagram: modes over speed, tracked by the MAC of their shapes.
 
 use super::modal::{self, Mode};
-use super::mode::inner;
+use super::mode::{inner, log_decrement};
 use super::mode_kind::ModeKind;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use rayon::prelude::*;
@@ -34,7 +34,21 @@ pub struct Campbell {
     /// Number of modes requested.
     pub(super) count: usize,
     /// All modes computed at every speed, a few more than requested.
-    pub(crate) sets: Vec<Vec<Mode>>,
+    pub(crate) all: Vec<Vec<ModeValue>>,
+}
+
+/// A mode without its shape.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct ModeValue {
+    pub eigenvalue: Complex64,
+    pub label: String,
+}
+
+impl ModeValue {
+    /// Log decrement δ.
+    pub fn log_dec(&self) -> f64 {
+        log_decrement(self.eigenvalue)
+    }
 }
 
 /// One mode tracked over speed.
@@ -110,11 +124,15 @@ pub fn campbell(
         }
         paths.push(at.clone());
     }
+    let value = |mode: &Mode| ModeValue { eigenvalue: mode.eigenvalue, label: mode.label.clone() };
+    let all = sets.iter().map(|set| set.iter().map(value).collect()).collect();
+    // No two branches have a mode in common, so that each can be moved into its own.
+    let mut sets: Vec<Vec<Option<Mode>>> =
+        sets.into_iter().map(|set| set.into_iter().map(Some).collect()).collect();
     let mut branches: Vec<Branch> = (0..at.len())
         .map(|branch| {
             let index = |path: &Vec<Option<usize>>| path.get(branch).copied().flatten();
-            let modes =
-                paths.iter().zip(&sets).map(|(path, set)| index(path).map(|i| set[i].clone())).collect();
+            let modes = paths.iter().zip(&mut sets).map(|(path, set)| set[index(path)?].take()).collect();
             let mut branch = Branch { label: String::new(), kind: ModeKind::Mixed, modes };
             if let Some((label, kind)) = branch.first(speeds).map(|m| (m.label.clone(), m.kind)) {
                 (branch.label, branch.kind) = (label, kind);
@@ -123,7 +141,7 @@ pub fn campbell(
         })
         .collect();
     make_labels_unique(&mut branches);
-    Ok(Campbell { speeds: speeds.to_vec(), branches, lost, count, sets })
+    Ok(Campbell { speeds: speeds.to_vec(), branches, lost, count, all })
 }
 
 /// Makes labels unique by a number: branches that start at different speeds may have the same label.

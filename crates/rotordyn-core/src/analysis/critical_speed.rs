@@ -14,7 +14,7 @@ mod undamped;
 pub use crossing::{CriticalSpeed, CrossingList, UncertainRange};
 pub use undamped::undamped_critical_speeds;
 
-use super::campbell::{Campbell, Tangents};
+use super::campbell::{Campbell, ModeValue, Tangents};
 use super::mode_kind::ModeKind;
 use crate::assembly::{Assembly, PhysicsError};
 use search::{Search, Spectrum};
@@ -52,8 +52,9 @@ pub fn crossings(
     tangents: &impl Tangents,
 ) -> Result<CrossingList, PhysicsError> {
     let search = Search::new(assembly, tangents, orders, Some(diagram.count));
-    let sets = diagram.speeds.iter().zip(&diagram.sets);
-    search.run(sets.map(|(speed, set)| Spectrum::of_modes(*speed, set)).collect(), orders)
+    let at =
+        |(speed, modes): (&f64, &Vec<ModeValue>)| Spectrum::new(*speed, modes.iter().map(|m| m.eigenvalue));
+    search.run(diagram.speeds.iter().zip(&diagram.all).map(at).collect(), orders)
 }
 
 /// Whether a crossing can be excited by unbalance of an axisymmetric machine: forward, at order 1.

@@ -47,8 +47,13 @@ impl Mode {
 
     /// Log decrement (logarithmic decrement) δ = 2π ζ / √(1 − ζ²).
     pub fn log_dec(&self) -> f64 {
-        -TAU * self.eigenvalue.re / self.eigenvalue.im
+        log_decrement(self.eigenvalue)
     }
+}
+
+/// δ = −2π Re λ / Im λ.
+pub(super) fn log_decrement(eigenvalue: Complex64) -> f64 {
+    -TAU * eigenvalue.re / eigenvalue.im
 }
 
 /// aᴴ b.

@@ -70,14 +70,23 @@ pub fn under_unbalance(
     q: &[Complex64],
     speed: f64,
 ) -> Vec<ShaftAmplitude> {
-    let major = |[x, y]: [Complex64; 2]| Orbit::new(x, y).major;
     let point = |section: &SectionLoad| ShaftAmplitude {
         z: model.node_z[section.node],
         displacement: major([q[6 * section.node], q[6 * section.node + 1]]),
         shear: major(section.shear),
-        moment: major(section.moment),
+        moment: largest_moment(section),
     };
     shaft.at_speed(q, speed).iter().map(point).collect()
+}
+
+/// Amplitude of the bending moment in a section under unbalance \[N m\].
+pub fn largest_moment(section: &SectionLoad) -> f64 {
+    major(section.moment)
+}
+
+/// Semi-major axis of the ellipse of a vector (x, y).
+fn major([x, y]: [Complex64; 2]) -> f64 {
+    Orbit::new(x, y).major
 }
 
 impl ShaftPoint {

@@ -10,17 +10,16 @@ use crate::model::Quantity;
 use rayon::prelude::*;
 use rotordyn_bearing::SiteTangent;
 use rotordyn_linalg::{Complex64, SparseRow};
-use serde::{Deserialize, Serialize};
 
-/// Complex amplitudes q(t) = Re(Q e^{jΩt}) over speed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct UnbalanceResponse {
-    /// Speeds Ω \[rad/s\].
-    pub speeds: Vec<f64>,
-    /// Q over the free DOFs at every speed.
-    pub amplitudes: Vec<Vec<Complex64>>,
-    /// Forces and moments of every bearing on the shaft, F_x F_y F_z M_x M_y M_z, at every speed \[N, N m\].
-    pub bearing_forces: Vec<Vec<[Complex64; 6]>>,
+/// Complex amplitudes q(t) = Re(Q e^{jΩt}) at one speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnbalanceMotion {
+    /// Ω \[rad/s\].
+    pub speed: f64,
+    /// Q over the free DOFs.
+    pub amplitude: Vec<Complex64>,
+    /// Forces and moments of every bearing on the shaft, F_x F_y F_z M_x M_y M_z \[N, N m\].
+    pub bearing_forces: Vec<[Complex64; 6]>,
 }
 
 /// Elliptic orbit x = Re(X e^{jΩt}), y = Re(Y e^{jΩt}).
@@ -51,51 +50,46 @@ impl Orbit {
     }
 }
 
-impl UnbalanceResponse {
-    /// Complex amplitude of a row (a probe's direction) over speed.
-    pub fn amplitude_of(&self, row: &SparseRow, quantity: Quantity) -> Vec<Complex64> {
-        let one =
-            |(speed, q): (&f64, &Vec<Complex64>)| derivative_factor(quantity, *speed) * row.dot_complex(q);
-        self.speeds.iter().zip(&self.amplitudes).map(one).collect()
-    }
-
-    /// Orbit of a point, given by its u_x and u_y rows, over speed.
-    pub fn orbits(&self, x: &SparseRow, y: &SparseRow) -> Vec<Orbit> {
-        self.amplitudes.iter().map(|q| Orbit::new(x.dot_complex(q), y.dot_complex(q))).collect()
+impl UnbalanceMotion {
+    /// Complex amplitude of a row (a probe's direction).
+    pub fn amplitude_of(&self, row: &SparseRow, quantity: Quantity) -> Complex64 {
+        derivative_factor(quantity, self.speed) * row.dot_complex(&self.amplitude)
     }
 }
 
-/// Q = (S − Ω² M + jΩ D)⁻¹ F with F_x = U Ω² e^{jϕ}, F_y = −j F_x at every speed \[rad/s\].
+/// Q = (S − Ω² M + jΩ D)⁻¹ F with F_x = U Ω² e^{jϕ}, F_y = −j F_x at every speed \[rad/s\]; of each motion only what
+/// `observe` takes from it is kept.
 ///
 /// # Errors
 /// A speed at which the dynamic stiffness is singular, or errors of the tangents.
-pub fn response(
+pub fn response<T: Send>(
     assembly: &Assembly,
     speeds: &[f64],
     tangents: &impl Tangents,
-) -> Result<UnbalanceResponse, PhysicsError> {
-    let (amplitudes, bearing_forces) = speeds
-        .par_iter()
-        .map(|&speed| {
-            let tangents = tangents(speed)?;
-            let system = LinearSystem::new(assembly, &tangents, speed)?;
-            let mut q = assembly.unbalance_amplitude(speed);
-            let reached: Vec<usize> = (0..q.len()).filter(|&i| q[i] != Complex64::default()).collect();
-            let harmonic = HarmonicSystem::new(&system, Some(&reached));
-            let mut solver = harmonic.solver();
-            solver.factor(speed).map_err(|pivot| PhysicsError::Singular {
-                motion: unconstrained_motion(assembly, &system, pivot.unknown),
-            })?;
-            solver.solve(&mut q);
-            let forces =
-                assembly.sites.iter().zip(&tangents).map(|(site, t)| bearing_force(site, t, &q, speed));
-            let forces = forces.collect();
-            Ok((q, forces))
-        })
-        .collect::<Result<Vec<_>, PhysicsError>>()?
-        .into_iter()
-        .unzip();
-    Ok(UnbalanceResponse { speeds: speeds.to_vec(), amplitudes, bearing_forces })
+    observe: impl Fn(UnbalanceMotion) -> T + Sync,
+) -> Result<Vec<T>, PhysicsError> {
+    let motion = |&speed: &f64| motion(assembly, speed, &tangents(speed)?).map(&observe);
+    speeds.par_iter().map(motion).collect()
+}
+
+fn motion(
+    assembly: &Assembly,
+    speed: f64,
+    tangents: &[SiteTangent],
+) -> Result<UnbalanceMotion, PhysicsError> {
+    let system = LinearSystem::new(assembly, tangents, speed)?;
+    let mut amplitude = assembly.unbalance_amplitude(speed);
+    let reached: Vec<usize> =
+        (0..amplitude.len()).filter(|&i| amplitude[i] != Complex64::default()).collect();
+    let harmonic = HarmonicSystem::new(&system, Some(&reached));
+    let mut solver = harmonic.solver();
+    solver.factor(speed).map_err(|pivot| PhysicsError::Singular {
+        motion: unconstrained_motion(assembly, &system, pivot.unknown),
+    })?;
+    solver.solve(&mut amplitude);
+    let sites = assembly.sites.iter().zip(tangents);
+    let bearing_forces = sites.map(|(site, t)| bearing_force(site, t, &amplitude, speed)).collect();
+    Ok(UnbalanceMotion { speed, amplitude, bearing_forces })
 }
 
 /// Force of a bearing on the shaft, F = −(K + jΩ C) d with its relative displacement d.

@@ -2,7 +2,7 @@
 
 use super::OrderLine;
 use crate::analysis::Mode;
-use crate::analysis::campbell::Campbell;
+use crate::analysis::campbell::{Campbell, ModeValue};
 use crate::analysis::critical_speed::{CriticalSpeed, CrossingList, UncertainRange};
 use crate::analysis::stability::Threshold;
 use crate::document::{Document, Rows, TO_RPM, in_hdf5, in_json, named};
@@ -38,12 +38,12 @@ const UNDAMPED: f64 = 1e-6;
 impl CampbellResult {
     /// The least log decrement of all modes of the diagram, tracked or not, at every speed; none if nothing is damped.
     pub fn least_damped(&self) -> Vec<LeastDamped> {
-        let at = |(speed, modes): (&f64, &Vec<Mode>)| {
+        let at = |(speed, modes): (&f64, &Vec<ModeValue>)| {
             let least = modes.iter().min_by(|a, b| a.log_dec().total_cmp(&b.log_dec()))?;
             Some(LeastDamped { speed: *speed, label: least.label.clone(), log_decrement: least.log_dec() })
         };
         let found: Vec<LeastDamped> =
-            self.diagram.speeds.iter().zip(&self.diagram.sets).filter_map(at).collect();
+            self.diagram.speeds.iter().zip(&self.diagram.all).filter_map(at).collect();
         let damped = found.iter().any(|point| point.log_decrement.abs() > UNDAMPED);
         if damped { found } else { Vec::new() }
     }

@@ -5,7 +5,6 @@ use super::{BearingForce, UndampedPeak};
 use crate::analysis::peaks::Peak;
 use crate::analysis::separation::SeparationMargin;
 use crate::analysis::shaft_loads::ShaftAmplitudes;
-use crate::analysis::unbalance::UnbalanceResponse;
 use crate::document::{Array, Document, MissingCell, Rows, TO_RPM, in_hdf5, in_json, named};
 use crate::model::Probe;
 use rotordyn_linalg::Complex64;
@@ -14,8 +13,8 @@ use serde::{Deserialize, Serialize};
 /// Unbalance response at every requested probe, and the orbit of every disc.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct UnbalanceResult {
-    /// At the requested speeds and those added around the critical speeds.
-    pub response: UnbalanceResponse,
+    /// Speeds Ω \[rad/s\]: those requested and those added around the critical speeds.
+    pub speeds: Vec<f64>,
     /// Index of every requested speed.
     pub requested: Vec<usize>,
     pub channels: Vec<UnbalanceChannel>,
@@ -28,6 +27,8 @@ pub struct UnbalanceResult {
     /// Critical speeds with their margins.
     pub margins: Vec<SeparationMargin>,
     pub bearing_forces: Vec<BearingForce>,
+    /// Displacements u_x and u_y of the shaft in every bearing, relative to its housing, over speed \[m\].
+    pub bearing_displacements: Vec<Vec<[Complex64; 2]>>,
     /// Amplitudes along the shaft at the highest operating speed and where its bending moment is largest; empty for a
     /// rigid rotor.
     pub shaft: Vec<ShaftAmplitudes>,
@@ -70,7 +71,7 @@ impl UnbalanceChannel {
 impl UnbalanceResult {
     /// What is written to files.
     pub fn document(&self) -> Document<'_> {
-        let speeds: Vec<f64> = self.response.speeds.iter().map(|speed| speed * TO_RPM).collect();
+        let speeds: Vec<f64> = self.speeds.iter().map(|speed| speed * TO_RPM).collect();
         let count = speeds.len();
         let part = |pairs: &[[f64; 2]], k: usize| -> Vec<f64> { pairs.iter().map(|p| p[k]).collect() };
         let responses = Rows::of(&self.channels)

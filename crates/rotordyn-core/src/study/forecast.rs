@@ -16,6 +16,7 @@ use crate::results::Motion;
 use crate::transient::reduction::{Reduction, check_size};
 use crate::transient::run::{Settings, run};
 use crate::transient::system::State;
+use rotordyn_linalg::krylov::first_basis;
 
 /// Steps of a measurement of the time per step, and the time after which it ends early \[s\].
 const TIMED_STEPS: f64 = 300.0;
@@ -33,13 +34,10 @@ const COMMON_CHANNELS: usize = 11;
 const BEARING_CHANNELS: usize = 4;
 /// Largest size of the frames of a motion: 100 MB of an animation are already hard to show.
 const MAX_MOTION_BYTES: f64 = 1e9;
-/// Largest size of the mode shapes of a Campbell diagram or of a search for critical speeds: of 1300 nodes with 31 speeds and 14
-/// modes, far more than a shaft needs.
+/// Largest size of the mode shapes of a Campbell diagram: of 4000 nodes with 31 speeds and 14 modes, far more than a shaft needs.
 const MAX_SHAPES_BYTES: f64 = 500e6;
-/// Shapes in memory of every mode and speed of a Campbell diagram, with those of its crossings, as measured.
-const SHAPES_PER_MODE: usize = 6;
-/// Shapes in memory during a search for critical speeds, as measured with the default speeds.
-const CRITICAL_SHAPES: usize = 1600;
+/// Shapes of a mode: over the free DOFs and over all.
+const SHAPES_PER_MODE: usize = 2;
 
 /// Kind of work of a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -251,10 +249,11 @@ impl Machine {
             }
             "poincare" | "lyapunov" | "bifurcation" => check_size(&self.assembly),
             "campbell" => self.model.studies.campbell.as_ref().map_or(Ok(()), |campbell| {
+                // Those of all speeds, and the search at one of them.
                 let modes = campbell.modes + EXTRA_MODES;
-                self.check_shapes(study, SHAPES_PER_MODE * campbell.speeds.len() * modes)
+                let search = first_basis(modes + 1, 2) + SHAPES_PER_MODE * (modes + 1);
+                self.check_shapes(study, SHAPES_PER_MODE * campbell.speeds.len() * modes + search)
             }),
-            "critical" => self.check_shapes(study, CRITICAL_SHAPES),
             _ => Ok(()),
         }
     }

@@ -1,12 +1,14 @@
 //! Harmonic responses: FRFs and the unbalance response, on grids refined around resonances.
 
 use super::Machine;
-use crate::analysis::frf::{self, Frf};
+use super::unbalance_loads::{UnbalanceSample, bearing_displacements};
+use crate::analysis::frf::{self, Frf, derivative_factor};
 use crate::analysis::peaks::peaks;
 use crate::analysis::poles::{Pole, frf_poles, synchronous_poles};
 use crate::analysis::refine::{RefinedGrid, refine};
+use crate::analysis::section_loads::ShaftSections;
 use crate::analysis::separation::separation_margins;
-use crate::analysis::unbalance::{self, Orbit, UnbalanceResponse};
+use crate::analysis::unbalance::{self, Orbit, UnbalanceMotion};
 use crate::assembly::PhysicsError;
 use crate::element::Anchor;
 use crate::model::study::{Excitation, FrfStudy, UnbalanceStudy};
@@ -110,17 +112,17 @@ impl Machine {
             false => [highest * (1.0 - SINGLE_POINT_RANGE), highest * (1.0 + SINGLE_POINT_RANGE)],
         };
         let poles = synchronous_poles(&self.assembly, range, &tangents)?;
-        type Sample = (Vec<Complex64>, Vec<[Complex64; 6]>);
-        let evaluate = |speeds: &[f64]| -> Result<Vec<Sample>, PhysicsError> {
-            let found = unbalance::response(&self.assembly, speeds, &tangents)?;
-            Ok(found.amplitudes.into_iter().zip(found.bearing_forces).collect())
-        };
-        let curves =
-            |(q, _): &Sample| -> Vec<Complex64> { observed.iter().map(|row| row.dot_complex(q)).collect() };
+        let shaft = ShaftSections::new(&self.model);
+        let observe = |motion: UnbalanceMotion| self.observe(motion, &observed, &shaft);
+        let evaluate = |speeds: &[f64]| unbalance::response(&self.assembly, speeds, &tangents, observe);
         let RefinedGrid { points: speeds, samples, requested } =
-            refined(&study.speeds, &poles, study.refine, evaluate, curves)?;
-        let (amplitudes, bearing_forces) = samples.into_iter().unzip();
-        let response = UnbalanceResponse { speeds, amplitudes, bearing_forces };
+            refined(&study.speeds, &poles, study.refine, evaluate, |sample| sample.observed.clone())?;
+        let along = |row: usize, quantity| -> Vec<Complex64> {
+            let value = |(speed, sample): (&f64, &UnbalanceSample)| {
+                derivative_factor(quantity, *speed) * sample.observed[row]
+            };
+            speeds.iter().zip(&samples).map(value).collect()
+        };
 
         let orbit_name = |name: &str| format!("orbit of disc.{name}");
         let orbit_names: Vec<String> = discs.iter().map(|(name, _)| orbit_name(name)).collect();
@@ -134,29 +136,30 @@ impl Machine {
             let shown = rows.iter().filter(|(_, rows)| excited && appears(pole, rows));
             shown.map(|(name, _)| (*name).to_string()).collect()
         };
-        let undamped = undamped_peaks(&poles, &response.speeds, appears_in);
+        let undamped = undamped_peaks(&poles, &speeds, appears_in);
         let plain = |name: &str, values: Vec<Complex64>| -> Vec<[f64; 2]> {
-            let values = with_infinite(&response.speeds, values, &undamped, name);
+            let values = with_infinite(&speeds, values, &undamped, name);
             values.iter().map(|v| [v.re, v.im]).collect()
         };
         let channels: Vec<UnbalanceChannel> = study
             .responses
             .iter()
-            .zip(&probe_rows)
-            .map(|(probe, row)| {
-                let amplitude = plain(&probe.name, response.amplitude_of(row, probe.quantity));
+            .enumerate()
+            .map(|(row, probe)| {
+                let amplitude = plain(&probe.name, along(row, probe.quantity));
                 UnbalanceChannel { probe: probe.clone(), amplitude }
             })
             .collect();
         let orbits: Vec<DiscOrbit> = discs
             .iter()
-            .map(|(name, rows)| {
-                let along =
-                    |row| plain(&orbit_name(name), response.amplitude_of(row, Quantity::Displacement));
-                DiscOrbit { name: (*name).to_string(), x: along(&rows[0]), y: along(&rows[1]) }
+            .enumerate()
+            .map(|(disc, (name, _))| {
+                let row = probe_rows.len() + 2 * disc;
+                let along = |row| plain(&orbit_name(name), along(row, Quantity::Displacement));
+                DiscOrbit { name: (*name).to_string(), x: along(row), y: along(row + 1) }
             })
             .collect();
-        let peaks = response_peaks(&response.speeds, &channels, &orbits);
+        let peaks = response_peaks(&speeds, &channels, &orbits);
         let operating_speeds = self.operating_speeds(study);
         let excited = |pole: &Pole| pole.is_excited_by(&self.assembly.unbalance_amplitude(pole.at));
         let named: Vec<_> = peaks.iter().map(|peak| (peak.response.clone(), peak.peak)).collect();
@@ -164,11 +167,12 @@ impl Machine {
             poles.into_iter().filter(|pole| (range[0]..=range[1]).contains(&pole.at)).collect();
         Ok(UnbalanceResult {
             margins: separation_margins(&within, &named, excited, operating_speeds),
-            bearing_forces: self.bearing_forces(&response, &undamped),
-            shaft: self.shaft_amplitudes(&response, &undamped, operating_speeds)?,
+            bearing_forces: self.bearing_forces(&speeds, &samples, &undamped),
+            shaft: self.shaft_amplitudes(&shaft, (&speeds, &samples), &undamped, operating_speeds)?,
+            bearing_displacements: bearing_displacements(&samples),
             peaks,
             operating_speeds,
-            response,
+            speeds,
             requested,
             channels,
             orbits,

@@ -77,7 +77,7 @@ pub fn criticals(results: &Results) -> Vec<Critical> {
 }
 
 pub fn unbalance(found: &UnbalanceResult, criticals: &[Critical], machine: &Machine) -> Vec<Named> {
-    let rpm: Vec<f64> = found.response.speeds.iter().map(|s| s * TO_RPM).collect();
+    let rpm: Vec<f64> = found.speeds.iter().map(|s| s * TO_RPM).collect();
     let si = |c: &UnbalanceChannel| unit_of(c.probe.quantity, is_rotation(&c.probe.direction));
     let mut units: Vec<&str> = Vec::new();
     for channel in &found.channels {

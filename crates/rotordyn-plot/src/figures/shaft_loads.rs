@@ -87,7 +87,7 @@ fn amplitudes(shaft: &ShaftAmplitudes, machine: &Machine) -> Named {
 }
 
 fn bearing_forces(found: &UnbalanceResult, machine: &Machine) -> Option<Named> {
-    let rpm: Vec<f64> = found.response.speeds.iter().map(|s| s * TO_RPM).collect();
+    let rpm: Vec<f64> = found.speeds.iter().map(|s| s * TO_RPM).collect();
     let loaded = |bearing: &&BearingForce| bearing.largest().is_some_and(|k| bearing.amplitude(k) > 0.0);
     let panel = |bearing: &BearingForce| {
         let over = |of: &dyn Fn(usize) -> f64| Curve {

@@ -10,10 +10,11 @@
 
 use super::{CriticalSpeed, CrossingList, Tangents, UncertainRange, refine, undamped};
 use crate::analysis::campbell::EXTRA_MODES;
-use crate::analysis::modal::{self, Eigenpair, Mode};
+use crate::analysis::modal::{self, Eigenpair};
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use rayon::prelude::*;
 use rotordyn_bearing::SiteTangent;
+use rotordyn_linalg::Complex64;
 use std::collections::BTreeMap;
 
 /// Modes with |λ| up to this multiple of the highest order line are computed: damping ratios up to 0.6.
@@ -31,31 +32,28 @@ const MAX_BRACKETINGS: usize = 80;
 /// Frequencies below this \[rad/s\] are rigid-body modes, see [`krylov`](rotordyn_linalg::krylov).
 const RIGID_BODY: f64 = 1e-3 * modal::SHIFT;
 
-/// Eigenpairs at one speed, by damped frequency.
+/// Eigenvalues at one speed, by damped frequency. Without their shapes, which would be most of the memory of a search.
 #[derive(Clone, Debug)]
 pub(super) struct Spectrum {
     speed: f64,
-    pairs: Vec<Eigenpair>,
+    values: Vec<Complex64>,
 }
 
 impl Spectrum {
-    fn new(speed: f64, mut pairs: Vec<Eigenpair>) -> Self {
-        pairs.sort_by(|a, b| a.0.im.total_cmp(&b.0.im));
-        Self { speed, pairs }
-    }
-
-    pub fn of_modes(speed: f64, modes: &[Mode]) -> Self {
-        Self::new(speed, modes.iter().map(|m| (m.eigenvalue, m.shape.clone())).collect())
+    pub fn new(speed: f64, values: impl IntoIterator<Item = Complex64>) -> Self {
+        let mut values: Vec<Complex64> = values.into_iter().collect();
+        values.sort_by(|a, b| a.im.total_cmp(&b.im));
+        Self { speed, values }
     }
 
     /// Number of modes below an order line.
     fn below(&self, order: f64) -> usize {
-        self.pairs.partition_point(|pair| pair.0.im < order * self.speed)
+        self.values.partition_point(|value| value.im < order * self.speed)
     }
 
     /// ω_d − n Ω of the mode at an index.
     fn gap(&self, index: usize, order: f64) -> Option<f64> {
-        self.pairs.get(index).map(|pair| pair.0.im - order * self.speed)
+        self.values.get(index).map(|value| value.im - order * self.speed)
     }
 }
 
@@ -85,13 +83,13 @@ impl<'a, T: Tangents> Search<'a, T> {
         Self { assembly, tangents, highest_order, limit }
     }
 
-    /// Eigenpairs at increasing speeds.
+    /// Eigenvalues at increasing speeds.
     pub fn spectra(&self, speeds: &[f64]) -> Result<Vec<Spectrum>, PhysicsError> {
         let Some(&top) = speeds.last() else { return Ok(Vec::new()) };
         let highest = self.spectrum(top, 8)?;
         let guess = |speed: f64| {
             let reach = REACH * self.highest_order * speed;
-            highest.pairs.iter().filter(|pair| pair.0.norm() < reach).count() + 2
+            highest.values.iter().filter(|value| value.norm() < reach).count() + 2
         };
         let lower = &speeds[..speeds.len() - 1];
         let mut spectra: Vec<Spectrum> =
@@ -100,13 +98,14 @@ impl<'a, T: Tangents> Search<'a, T> {
         Ok(spectra)
     }
 
-    /// Eigenpairs at a speed: all below the highest order line and one above it, or as many as are searched.
+    /// Eigenvalues at a speed: all below the highest order line and one above it, or as many as are searched.
     fn spectrum(&self, speed: f64, guess: usize) -> Result<Spectrum, PhysicsError> {
         if speed <= 0.0 {
             // No order line crosses at standstill.
-            return Ok(Spectrum::new(speed, Vec::new()));
+            return Ok(Spectrum::new(speed, []));
         }
-        Ok(Spectrum::new(speed, self.pairs(&self.system(speed)?, guess)?))
+        let pairs = self.pairs(&self.system(speed)?, guess)?;
+        Ok(Spectrum::new(speed, pairs.into_iter().map(|(value, _)| value)))
     }
 
     fn system(&self, speed: f64) -> Result<LinearSystem, PhysicsError> {
@@ -129,6 +128,13 @@ impl<'a, T: Tangents> Search<'a, T> {
             Some(limit) => modal::eigenpairs(self.assembly, system, limit + EXTRA_MODES),
             None => self.all_pairs(system, guess),
         }
+    }
+
+    /// The eigenpairs of a spectrum, by damped frequency.
+    fn sorted_pairs(&self, of: &Spectrum) -> Result<Vec<Eigenpair>, PhysicsError> {
+        let mut pairs = self.pairs(&self.system(of.speed)?, of.values.len().max(2) - 1)?;
+        pairs.sort_by(|a, b| a.0.im.total_cmp(&b.0.im));
+        Ok(pairs)
     }
 
     /// Number of modes below an order line, at most as many as are searched.
@@ -166,7 +172,8 @@ impl<'a, T: Tangents> Search<'a, T> {
             return Ok(AllBelow { speed, system: None, counts: vec![0; orders.len()] });
         }
         let system = self.system(speed)?;
-        let all = Spectrum::new(speed, self.all_pairs(&system, self.limit.unwrap_or(0) + 8)?);
+        let pairs = self.all_pairs(&system, self.limit.unwrap_or(0) + 8)?;
+        let all = Spectrum::new(speed, pairs.into_iter().map(|(value, _)| value));
         let counts = orders.iter().map(|&order| all.below(order)).collect();
         Ok(AllBelow { speed, system: Some(system), counts })
     }
@@ -214,7 +221,7 @@ impl<'a, T: Tangents> Search<'a, T> {
                 .map(|step| match step[0].1 {
                     true => {
                         let (a, b) = (&step[0].0, &step[1].0);
-                        self.spectrum(0.5 * (a.speed + b.speed), b.pairs.len().max(2) - 1).map(Some)
+                        self.spectrum(0.5 * (a.speed + b.speed), b.values.len().max(2) - 1).map(Some)
                     }
                     false => Ok(None),
                 })
@@ -280,28 +287,29 @@ impl<'a, T: Tangents> Search<'a, T> {
         // The end at which the modes of these indices lie below the line, so that both are known there.
         let end = if nb > na { b } else { a };
         let mut found = ByIndex::new();
+        let starts = if indices.is_empty() { Vec::new() } else { self.sorted_pairs(end)? };
         for index in indices.clone() {
-            if !found.contains_key(&index) {
-                let start = (end.speed, &end.pairs[index]);
-                let ends = (a.speed, b.speed);
-                // Linear between both ends, or constant if the frequency is not known at the other.
-                let trial = match (a.gap(index, order), b.gap(index, order)) {
-                    (Some(ga), Some(gb)) => a.speed + (b.speed - a.speed) * ga / (ga - gb),
-                    _ => start.1.0.im / order,
-                };
-                let root = refine::crossing((self.assembly, self.tangents), order, start, trial, ends)?;
-                if let Some((speed, _)) = root {
-                    self.modes_near_line(speed, order, ON_LINE, end.pairs.len(), &mut found)?;
-                }
+            let Some(start) = starts.get(index).filter(|_| !found.contains_key(&index)) else { continue };
+            let ends = (a.speed, b.speed);
+            // Linear between both ends, or constant if the frequency is not known at the other.
+            let trial = match (a.gap(index, order), b.gap(index, order)) {
+                (Some(ga), Some(gb)) => a.speed + (b.speed - a.speed) * ga / (ga - gb),
+                _ => start.0.im / order,
+            };
+            let machine = (self.assembly, self.tangents);
+            let root = refine::crossing(machine, order, (end.speed, start), trial, ends)?;
+            if let Some((speed, _)) = root {
+                self.modes_near_line(speed, order, ON_LINE, end.values.len(), &mut found)?;
             }
         }
+        drop(starts);
         found.retain(|index, _| indices.contains(index));
         if depth == 0 {
             for index in indices.clone() {
                 if !found.contains_key(&index)
                     && let Some(speed) = self.bracketed(a, b, index, order)?
                 {
-                    self.modes_near_line(speed, order, 10.0 * ON_LINE, end.pairs.len(), &mut found)?;
+                    self.modes_near_line(speed, order, 10.0 * ON_LINE, end.values.len(), &mut found)?;
                 }
             }
             found.retain(|index, _| indices.contains(index));
@@ -309,7 +317,7 @@ impl<'a, T: Tangents> Search<'a, T> {
         if found.len() == indices.len() || depth == 0 {
             return Ok(found.into_values().collect());
         }
-        let middle = self.spectrum(0.5 * (a.speed + b.speed), end.pairs.len().max(2) - 1)?;
+        let middle = self.spectrum(0.5 * (a.speed + b.speed), end.values.len().max(2) - 1)?;
         let mut found = self.crossings(a, &middle, order, depth - 1)?;
         found.extend(self.crossings(&middle, b, order, depth - 1)?);
         Ok(found)
@@ -324,7 +332,7 @@ impl<'a, T: Tangents> Search<'a, T> {
         index: usize,
         order: f64,
     ) -> Result<Option<f64>, PhysicsError> {
-        let count = a.pairs.len().max(b.pairs.len());
+        let count = a.values.len().max(b.values.len());
         let mut ends = [a, b].map(|end| (end.speed, end.gap(index, order)));
         for step in 0..MAX_BRACKETINGS {
             let [(left, ga), (right, gb)] = ends;

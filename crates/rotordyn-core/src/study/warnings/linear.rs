@@ -43,23 +43,25 @@ impl Machine {
     /// The contacts open where the displacement exceeds the compression of the most loaded ball; in a bearing with
     /// unloaded balls the force follows its tangent only up to about the static load.
     fn opened_contacts(&self, result: &UnbalanceResult) -> Vec<Warning> {
-        let bearings =
-            self.model.bearings.iter().zip(&self.assembly.sites).zip(&self.standstill_equilibrium.bearings);
+        let bearings = self
+            .model
+            .bearings
+            .iter()
+            .zip(&self.standstill_equilibrium.bearings)
+            .zip(&result.bearing_displacements);
         let mut found = Vec::new();
-        for ((site, place), state) in bearings {
+        for ((site, state), displacements) in bearings {
             let Some(compression) = largest_compression(state) else { continue };
             let all_loaded = state.balls.iter().all(|contact| contact.load > 0.0);
             let static_force = state.force[0].hypot(state.force[1]);
-            let openings =
-                result.response.speeds.iter().zip(&result.response.amplitudes).map(|(speed, q)| {
-                    let d = [0, 1].map(|axis| place.rows[axis].dot_complex(q));
-                    let displacement = semi_major_axis(d);
-                    let k = &state.tangent.stiffness;
-                    let force = semi_major_axis([0, 1].map(|i| d[0] * k[i][0] + d[1] * k[i][1]));
-                    let by_force = if all_loaded { 0.0 } else { force / static_force };
-                    let excess = (displacement / compression).max(by_force);
-                    Opening { speed: *speed, displacement, force, excess }
-                });
+            let openings = result.speeds.iter().zip(displacements).map(|(speed, &d)| {
+                let displacement = semi_major_axis(d);
+                let k = &state.tangent.stiffness;
+                let force = semi_major_axis([0, 1].map(|i| d[0] * k[i][0] + d[1] * k[i][1]));
+                let by_force = if all_loaded { 0.0 } else { force / static_force };
+                let excess = (displacement / compression).max(by_force);
+                Opening { speed: *speed, displacement, force, excess }
+            });
             let Some(worst) = openings.max_by(|a, b| a.excess.total_cmp(&b.excess)) else { continue };
             if worst.excess <= 1.0 || !worst.excess.is_finite() {
                 continue;

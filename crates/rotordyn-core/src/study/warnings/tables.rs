@@ -35,7 +35,7 @@ fn speeds_of(model: &Model, results: &Results) -> Vec<(&'static str, [f64; 2])> 
         ("campbell", results.campbell.as_ref().and_then(|found| speed_range(&found.diagram.speeds))),
         ("critical", critical),
         ("frf", results.frf.as_ref().map(|found| at(found.speed))),
-        ("unbalance", results.unbalance.as_ref().and_then(|found| speed_range(&found.response.speeds))),
+        ("unbalance", results.unbalance.as_ref().and_then(|found| speed_range(&found.speeds))),
         ("run-up", run_up),
         ("poincare", results.poincare.as_ref().map(|found| at(found.speed))),
         ("lyapunov", results.lyapunov.as_ref().map(|found| at(found.speed))),
