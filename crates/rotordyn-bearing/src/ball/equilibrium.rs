@@ -431,14 +431,14 @@ impl BallInertiaLoads {
                 length *= 0.5;
             }
         }
-        self.solve_by_bisection(single, s, &sides)
+        self.solve_between_bounds(single, s, &sides)
     }
 
-    /// The same equilibrium by bisection in polar coordinates about the outer groove centre: the force
+    /// The same equilibrium between bounds, in polar coordinates about the outer groove centre: the force
     /// balance along the outer contact line gives its length, the balance across it the angle. Slow robust
     /// fallback.
     #[cold]
-    fn solve_by_bisection(
+    fn solve_between_bounds(
         &self,
         single: &impl Fn(Race, f64) -> ContactLoad,
         s: [f64; 2],
@@ -454,12 +454,15 @@ impl BallInertiaLoads {
         };
         let reach = self.balls.lengths[0] + self.balls.lengths[1];
         let length = |angle: f64| {
-            bisect(|l| -at(angle, l).2, [1e-3 * self.balls.lengths[1], self.balls.lengths[1] + reach])
+            root_finding::bracketed_root(
+                |l| -at(angle, l).2,
+                [1e-3 * self.balls.lengths[1], self.balls.lengths[1] + reach],
+            )
         };
         // From the direction of the centrifugal force (angle 0) towards the inner groove centre.
         let line = s[1].atan2(s[0]);
         let sign = if line < 0.0 { 1.0 } else { -1.0 };
-        let share = bisect(|x| sign * at(x * line, length(x * line)).3, [0.0, 1.0]);
+        let share = root_finding::bracketed_root(|x| sign * at(x * line, length(x * line)).3, [0.0, 1.0]);
         let (inner, outer, ..) = at(share * line, length(share * line));
         BallEquilibrium { inner, outer }
     }
@@ -471,22 +474,6 @@ pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 pub(super) fn difference(a: &Matrix, b: &Matrix) -> Matrix {
     [0, 1].map(|r| [0, 1].map(|c| a[r][c] - b[r][c]))
-}
-
-/// Root of an increasing function between two arguments, by bisection.
-fn bisect(f: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        if f(middle) > 0.0 {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    0.5 * (low + high)
 }
 
 /// Solution x of the 2×2 system A x = r.
