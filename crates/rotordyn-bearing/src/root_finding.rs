@@ -83,9 +83,12 @@ mod tests {
     use super::*;
     use std::cell::Cell;
 
+    /// Name, function, range, root, most evaluations.
+    type Case = (&'static str, fn(f64) -> f64, [f64; 2], f64, usize);
+
     #[test]
     fn roots_to_round_off_in_few_evaluations() {
-        let functions: [(&str, fn(f64) -> f64, [f64; 2], f64, usize); 6] = [
+        let functions: [Case; 6] = [
             ("cube", |x| x * x * x - 2.0, [0.0, 10.0], 2.0_f64.cbrt(), 16),
             // A contact that opens at 0.3, as steep as a race.
             ("contact", |x| 1e9 * (x - 0.3_f64).max(0.0).powf(1.5) - 1e-3, [0.0, 1.0], 0.3 + 1e-8, 60),
