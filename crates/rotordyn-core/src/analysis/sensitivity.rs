@@ -18,6 +18,7 @@ use crate::assembly::rigid_body_modes::{motion_of, unconstrained_motion};
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::model::{Model, Quantity};
 use rotordyn_bearing::{Reaction, SiteTangent};
+use rotordyn_linalg::refinement::{PreciseResidual, refine};
 use rotordyn_linalg::{BandLayout, Complex64, SparseMatrix, SparseRow, Triplets};
 use std::f64::consts::TAU;
 
@@ -139,7 +140,18 @@ impl Linearised {
         let lu = layout
             .factor::<f64>(layout.scatter(&tangent))
             .map_err(|p| PhysicsError::Singular { motion: motion_of(&self.assembly, p.unknown) })?;
+        let load = change.clone();
         lu.solve(&mut change);
+        // Shafts of many elements need more digits than a direct solution has; their sum would round them away.
+        refine(&mut change, |slope| {
+            let mut residual = PreciseResidual::of(&load);
+            for (factor, matrix) in [(1.0, stiffness), (1.0, &bearings), (MASS_SHIFT, mass)] {
+                residual.subtract(factor, matrix, slope);
+            }
+            let mut correction = residual.values();
+            lu.solve(&mut correction);
+            correction
+        });
         Ok(change)
     }
 }
