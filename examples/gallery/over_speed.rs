@@ -129,7 +129,7 @@ pub fn spectrogram() -> Figure {
     Figure::Spectrogram(Spectrogram {
         title: "Overhung rig: run-up, bearing B vertical".to_string(),
         note: "STFT, Hann window 1.0 s, overlap 90 %; lines: linear Campbell diagram".to_string(),
-        panels: vec![SpectrogramPanel { name: String::new(), rpm, hz, level_db: decibels(&values).into() }],
+        panels: vec![SpectrogramPanel { rpm, hz, level_db: decibels(&values).into(), ..Default::default() }],
         quantity: "acceleration level".to_string(),
         unit: "dB re 1 m/s²".to_string(),
         span_db: 70.0,

@@ -2,6 +2,7 @@
 
 mod bearing;
 mod common;
+mod compare;
 mod init;
 pub mod keys;
 mod manual;
@@ -23,6 +24,7 @@ use rotordyn::io::run_export::{self, RunFormat};
 use super::signal::args::SignalArgs;
 use super::trend::args::TrendArgs;
 pub use bearing::BearingArgs;
+pub use compare::CompareArgs;
 pub use init::{InitArgs, STARTERS};
 use manual::{AFTER_HELP, LONG_ABOUT};
 pub use measured::{EstimatorName, IdentifyArgs, NoiseArgs, ShaftArgs};
@@ -61,6 +63,9 @@ pub struct ExportArgs {
     /// Record number in the variable names of channels.mat (X001_...)
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub number: u32,
+    /// Also write every mode in motion for ParaView, with this number of frames a cycle: modes_<speed>rpm_<mode>.pvd
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(4..=360))]
+    pub mode_frames: Option<u16>,
     /// How many times slower motion.glb shows a recorded motion [default: the shaft turns once a second at most]
     #[arg(long, value_name = "FACTOR", value_parser = slow_motion)]
     pub slow_motion: Option<f64>,
@@ -374,30 +379,13 @@ Examples:
   rotordyn identify out/overhung_rig/results.h5 --json")]
     Identify(Box<IdentifyArgs>),
 
-    /// Compare variants of one machine: table of natural frequencies, FRF overlays
+    /// Compare cases of one machine, and a measurement: modes, FRFs, unbalance responses, run-ups
     ///
-    /// Modes of the variants are paired with those of the first by the mass-weighted MAC of their shaft
-    /// deflection. `base` is the model without a variant.
-    #[command(after_long_help = "\
-Examples:
-  rotordyn compare models/overhung_rig.toml --variants spherical,cylindrical,base
-  rotordyn compare models/overhung_rig.toml --variants clearance_5um,base,clearance_33um --modes 8")]
-    Compare {
-        #[command(flatten)]
-        study: StudyArgs,
-        /// Variants, separated by commas [default: base and every variant of the file]
-        #[arg(long, value_name = "NAMES", value_delimiter = ',')]
-        variants: Vec<String>,
-        /// Speeds, such as "0, 1200 rpm" [default: those of [study.modal]]
-        #[arg(long, value_name = "SPEEDS")]
-        speed: Option<String>,
-        /// Number of modes
-        #[arg(long, value_name = "N")]
-        modes: Option<usize>,
-        /// Smallest MAC of a mode pair; modes below it stay without a pair
-        #[arg(long, value_name = "MAC", default_value_t = 0.5)]
-        min_mac: f64,
-    },
+    /// Variants, several values of a key, or named cases beside each other, in tables and on common axes: natural
+    /// frequencies paired by MAC, FRFs, unbalance responses, Campbell diagrams; with --run-up run-ups. Measured FRFs or
+    /// a recorded run-up stand beside them.
+    #[command(after_long_help = compare::COMPARE)]
+    Compare(Box<CompareArgs>),
 
     /// Correlate the model with measured modes, FRFs or run-ups: mode pairing, MAC, frequency errors
     ///
@@ -486,6 +474,7 @@ one channel as 32-bit floats in SI units.
 
 Examples:
   rotordyn export models/overhung_rig.toml
+  rotordyn export models/overhung_rig.toml --mode-frames 24
   rotordyn export models/overhung_rig.toml --formats mat,wav --number 105")]
     Export(ExportArgs),
 }

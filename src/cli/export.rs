@@ -1,6 +1,6 @@
 //! `export`: geometry as glTF, mode shapes as VTK, time histories, modes and FRFs for measurement programs.
 
-use rotordyn::io::export_3d::{export_geometry, export_modes, export_motion};
+use rotordyn::io::export_3d::{export_geometry, export_mode_motion, export_modes, export_motion};
 use rotordyn::io::hdf5::open_reader;
 use rotordyn::io::run_export::Options;
 use rotordyn::io::{machine_records, measured, results_file};
@@ -33,6 +33,9 @@ pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
     let frf = machine.model.studies.frf.as_ref().filter(|_| with_frf).map(|s| machine.frf(s)).transpose()?;
     let results = Results { modal: modal.unwrap_or_default(), frf, ..Results::default() };
     files.extend(export_modes(&results, &machine, &folder)?);
+    if let Some(frames) = args.mode_frames {
+        files.extend(export_mode_motion(&results, &machine, frames.into(), &folder)?);
+    }
     if args.formats.iter().any(|format| format.name == "uff") {
         let mut write = |name: &str, content: &MeasuredData| {
             let path = folder.join(name);

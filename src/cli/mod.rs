@@ -206,9 +206,7 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Orders(args) => stored_run::run(args, terminal, Study::Orders),
         Command::Bearing(args) => bearing::run(args, terminal),
         Command::Identify(args) => identify::run(args, terminal),
-        Command::Compare { study, variants, speed, modes, min_mac } => {
-            compare::run(study, variants, speed.as_ref(), *modes, *min_mac, terminal)
-        }
+        Command::Compare(args) => compare::run(args, terminal),
         Command::Validate(args) => validate::run(args, terminal),
         Command::Update(args) => update::run(args, terminal),
         Command::Catalogue { designation } => {

@@ -14,7 +14,7 @@ use rotordyn::study::{Machine, MeasuredRun, run_up_warnings};
 use rotordyn::update::UpdateError;
 use rotordyn::warning::Code;
 
-use super::args::{OutputFiles, ShaftArgs, StoredArgs, ValidateArgs};
+use super::args::{OutputFiles, ShaftArgs, StoredArgs};
 use super::failure::Failure;
 use super::folder_lock::FolderLock;
 use super::machine::ModelSource;
@@ -41,16 +41,25 @@ pub struct MeasuredRunUp {
     pub rpm: [f64; 2],
 }
 
+/// How a run-up is read from a file.
+#[derive(Clone, Copy)]
+pub struct RunUpReading<'a> {
+    pub mapping: Option<&'a Path>,
+    /// Time range.
+    pub time: Option<&'a str>,
+    pub shaft: &'a ShaftArgs,
+}
+
 /// The run-up in a file, or the reason why it contains none.
 pub fn read(
     path: &Path,
-    args: &ValidateArgs,
+    args: &RunUpReading,
     model: &Model,
     terminal: &Terminal,
 ) -> Result<Result<MeasuredRunUp, String>, Failure> {
     let mut file = File::read(path, None)?;
     let mut findings = InputProblems::default();
-    let mapping = args.measured.mapping.as_ref().map(|path| mapping::read(path)).transpose()?;
+    let mapping = args.mapping.map(mapping::read).transpose()?;
     if let Some(rate) = mapping.as_ref().and_then(mapping::Mapping::rate) {
         file.measured.set_missing_rate(rate);
     }
@@ -85,7 +94,7 @@ pub fn read(
         run_up::is_rotation_signal(r) || args.shaft.tacho.as_deref() == Some(&r.name)
     };
     file.measured.records.retain(|r| !is_shaft_channel(r));
-    if let (Some(mapping), Some(of)) = (&mapping, &args.measured.mapping) {
+    if let (Some(mapping), Some(of)) = (&mapping, args.mapping) {
         let place = |name: &str| machine_records::point_number(model, name);
         for warning in mapping.apply(&mut file.measured, &place, of)? {
             terminal.warn_of(Code::MeasuredData, format!("{}: {warning}", path.display()));
@@ -102,7 +111,7 @@ pub fn read(
         terminal.warn_of(Code::MeasuredData, format!("{}: {warning}", path.display()));
     }
     for (_, channel) in &mut channels {
-        cut_time_range(channel, args.time.as_deref(), "--time", &mut findings);
+        cut_time_range(channel, args.time, "--time", &mut findings);
     }
     findings.to_result().map_err(named)?;
     let first = &channels[0].1;

@@ -20,6 +20,7 @@ pub struct Terminal {
     tables: bool,
     progress: bool,
     notes_shown: bool,
+    warnings_shown: bool,
     bold: bool,
     pub colour: bool,
     /// All warnings, for the JSON document.
@@ -38,12 +39,29 @@ impl Terminal {
             tables: !output.quiet && !output.json,
             progress: !output.quiet && !dumb && stderr().is_terminal(),
             notes_shown: !output.quiet,
+            warnings_shown: true,
             bold: colour_allowed && stdout().is_terminal(),
             colour: colour_allowed && stderr().is_terminal(),
             warnings: Mutex::default(),
             notes: Mutex::default(),
             lost: Mutex::default(),
         }
+    }
+
+    /// The same without tables; its warnings are its own.
+    pub fn without_tables(&self) -> Self {
+        Self { tables: false, ..self.alike() }
+    }
+
+    /// The same without tables and warnings.
+    pub fn without_warnings(&self) -> Self {
+        Self { tables: false, warnings_shown: false, ..self.alike() }
+    }
+
+    fn alike(&self) -> Self {
+        let Self { tables, progress, notes_shown, warnings_shown, bold, colour, .. } = *self;
+        let (warnings, notes, lost) = (Mutex::default(), Mutex::default(), Mutex::default());
+        Self { tables, progress, notes_shown, warnings_shown, bold, colour, warnings, notes, lost }
     }
 
     /// Prints one or more lines to standard output.
@@ -116,8 +134,10 @@ impl Terminal {
     /// Prints a warning with its code to standard error, also with `--quiet`.
     pub fn warn(&self, warning: &Warning) {
         self.record_warning(warning.clone());
-        let word = self.coloured(33, &format!("warning[{}]", warning.code.name()));
-        let _ = writeln!(stderr(), "{word}: {warning}");
+        if self.warnings_shown {
+            let word = self.coloured(33, &format!("warning[{}]", warning.code.name()));
+            let _ = writeln!(stderr(), "{word}: {warning}");
+        }
     }
 
     /// A warning about the whole of a measured file or an analysis.

@@ -22,6 +22,7 @@ use super::failure::Failure;
 use super::folder_lock::FolderLock;
 use super::machine::ModelSource;
 use super::measured::{self, folder, stem};
+use super::run_up_correlation::RunUpReading;
 use super::terminal::{Terminal, number};
 use super::{Outcome, ehl_films, print_model_warnings, print_written_files, run_up_correlation};
 
@@ -40,7 +41,12 @@ pub fn run(args: &ValidateArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     let mut structures = Vec::new();
     let mut run_ups = Vec::new();
     for (path, target) in paths.iter().zip(measured::read(&args.measured, &loaded.model, terminal)?) {
-        let run_up = run_up_correlation::read(path, args, &loaded.model, terminal)?;
+        let reading = RunUpReading {
+            mapping: args.measured.mapping.as_deref(),
+            time: args.time.as_deref(),
+            shaft: &args.shaft,
+        };
+        let run_up = run_up_correlation::read(path, &reading, &loaded.model, terminal)?;
         match (&target, &run_up) {
             (None, Err(why)) => return Err(no_measurement_error(path, why).into()),
             (_, Ok(run_up)) => terminal.print(&format!(

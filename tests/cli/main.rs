@@ -5,6 +5,7 @@ mod bearing_limits;
 mod bearings;
 mod belts;
 mod commands;
+mod compare;
 mod failures;
 #[cfg(target_os = "linux")]
 mod flat_memory;

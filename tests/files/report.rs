@@ -1,8 +1,9 @@
 //! Figures, JSON and viewer files (glTF, VTK) of the rig's results.
 
-use rotordyn::figures::{draw, draw_comparison};
-use rotordyn::io::export_3d::{export_geometry, export_modes};
+use rotordyn::figures::{LinearComparison, draw, draw_comparison};
+use rotordyn::io::export_3d::{export_geometry, export_mode_motion, export_modes};
 use rotordyn::io::json::to_json;
+use rotordyn::study::{FrfCase, compare_frfs};
 use serde_json::Value;
 
 use crate::rig_results::RIG;
@@ -39,6 +40,7 @@ fn all_figures_are_drawn_reproducibly() {
         "run_up_disc_x",
         "run_up_disc_y",
         "run_up_disc_twist",
+        "run_up_rim_y",
         "run_up_bearing_A",
         "run_up_bearing_B",
         "run_up_energy",
@@ -80,15 +82,21 @@ fn all_figures_are_drawn_reproducibly() {
 
 #[test]
 fn variant_comparison_figures() {
-    let (_, results) = &*RIG;
+    let (machine, results) = &*RIG;
     let folder = tempfile::tempdir().unwrap();
-    let variants = [("ball bearings".to_string(), results), ("spherical".to_string(), results)];
-    let files = draw_comparison(&variants, folder.path()).unwrap();
+    let frf = results.frf.as_ref().unwrap();
+    let case = |name| FrfCase { name, machine, found: frf };
+    let compared = compare_frfs(&[case("ball bearings"), case("spherical")], &[]).unwrap();
+    let campbell = results.campbell.as_ref().unwrap();
+    let drawn = |frfs, campbell| LinearComparison { note: "rig", frfs, unbalance: None, campbell };
+    let both = [("ball bearings", campbell), ("spherical", campbell)];
+    let files = draw_comparison(drawn(Some(&compared), &both), folder.path()).unwrap();
     // A hit on housing B does not excite the disc's torsion: no figure.
-    assert_eq!(files.len(), 2 * 7 - 1 + 1);
+    assert_eq!(files.len(), 2 * 8 - 1 + 1);
     let svg = std::fs::read_to_string(folder.path().join("comparison_frf_rim_disc_x.svg")).unwrap();
     assert!(svg.contains("ball bearings") && svg.contains("spherical"));
-    assert!(draw_comparison(&variants[..1], folder.path()).unwrap().is_empty());
+    let alone = compare_frfs(&[case("ball bearings")], &[]).unwrap();
+    assert!(draw_comparison(drawn(Some(&alone), &both[..1]), folder.path()).unwrap().is_empty());
 }
 
 /// Every number of a document, by path.
@@ -172,4 +180,34 @@ fn geometry_and_mode_shapes_are_exported() {
     let largest = now.iter().zip(&later).map(|(a, b)| (square(a) + square(b)).sqrt()).fold(0.0, f64::max);
     // The written coordinates of the surfaces are rounded.
     assert!((largest - 0.0625).abs() < 1e-8, "{largest}");
+    // In motion: the frames of a cycle, of which the first is the shape and the second, of four, a quarter later.
+    let moving = export_mode_motion(results, machine, 4, folder.path()).unwrap();
+    assert_eq!(moving.len(), 24);
+    let text = std::fs::read_to_string(folder.path().join("modes_1200rpm_01.pvd")).unwrap();
+    assert!(text.contains("timestep=\"2.5e-1\" part=\"0\" file=\"modes_1200rpm/mode_01_001.vtu\""), "{text}");
+    let points = |frame: usize| -> Vec<[f64; 3]> {
+        let file = folder.path().join(format!("modes_1200rpm/mode_01_{frame:03}.vtu"));
+        let bytes = std::fs::read(file).unwrap();
+        let marker = b"<AppendedData encoding=\"raw\">\n_";
+        let start = bytes.windows(marker.len()).position(|w| w == marker).unwrap() + marker.len();
+        let header = String::from_utf8_lossy(&bytes[..start]).into_owned();
+        let declared = header.split("Name=\"points\"").nth(1).unwrap();
+        let offset: usize =
+            declared.split("offset=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap();
+        let at = start + offset;
+        let size = u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap()) as usize;
+        let numbers: Vec<f64> = bytes[at + 8..at + 8 + size]
+            .chunks(8)
+            .map(|b| f64::from_le_bytes(b.try_into().unwrap()))
+            .collect();
+        numbers.chunks(3).map(|p| [p[0], p[1], p[2]]).collect()
+    };
+    let (first, second, third) = (points(0), points(1), points(2));
+    for k in 0..now.len() {
+        for i in 0..3 {
+            let rest = 0.5 * (first[k][i] + third[k][i]);
+            assert!((first[k][i] - rest - now[k][i]).abs() < 1e-12);
+            assert!((second[k][i] - rest - later[k][i]).abs() < 1e-12);
+        }
+    }
 }

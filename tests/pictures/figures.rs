@@ -129,7 +129,7 @@ fn heat_map_shows_a_single_cell_peak_at_its_place() {
         ((0..nx).map(f64::from).collect(), (0..ny).map(f64::from).collect());
     let mut level_db = vec![-100.0; (nx * ny) as usize];
     level_db[(750 * ny + 1500) as usize] = 0.0;
-    let panels = vec![SpectrogramPanel { name: String::new(), rpm, hz, level_db: level_db.into() }];
+    let panels = vec![SpectrogramPanel { rpm, hz, level_db: level_db.into(), ..Default::default() }];
     let map = Spectrogram { panels, span_db: 80.0, ..Default::default() };
     let svg = Figure::Spectrogram(map).svg().unwrap();
     let picture = tiny_skia::Pixmap::decode_png(&png(&svg).unwrap()).unwrap();

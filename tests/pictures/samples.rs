@@ -43,6 +43,7 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
                     rpm: x.clone(),
                     hz: y.clone(),
                     level_db: grid.clone().into(),
+                    ..Default::default()
                 })
                 .collect(),
             quantity: labelled("level"),

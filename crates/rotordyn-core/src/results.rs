@@ -5,6 +5,7 @@ mod bearing_force;
 mod bifurcation;
 mod cage_comparison;
 mod campbell;
+mod case_comparison;
 mod critical;
 mod critical_map;
 mod free_ball;
@@ -19,6 +20,7 @@ mod poincare;
 mod response_grid;
 mod run_summary;
 mod run_up;
+mod run_up_comparison;
 mod run_up_correlation;
 mod signal;
 mod spectra;
@@ -36,6 +38,10 @@ pub use bearing_force::BearingForce;
 pub use bifurcation::{BifurcationPoint, BifurcationResult, BifurcationSweep, SteadyMotion};
 pub use cage_comparison::{CageLine, CageSpeed, RollingCageComparison};
 pub use campbell::{CampbellResult, LeastDamped};
+pub use case_comparison::{
+    CaseFrf, CaseUnbalance, ComparedFrf, ComparedUnbalance, FrfComparison, FrfPeak, FrfPoint,
+    UnbalanceComparison, UnbalancePeak, UnbalancePoint,
+};
 pub use critical::CriticalResult;
 pub use critical_map::CriticalMap;
 pub use free_ball::{CageComparison, FreeBallMean, FreeBallRecord, FreeBallResult, LOSS_NAMES, SkiddingMap};
@@ -49,6 +55,7 @@ pub use poincare::{PlaneSection, PoincareResult, Whirl};
 pub use response_grid::{UndampedPeak, is_rotation, unit_of};
 pub use run_summary::{ChannelSummary, RunSummary};
 pub use run_up::{CagePhaseBand, CagePhaseChannel, CagePhaseLine, RunUpResult, StepError, StepErrorLine};
+pub use run_up_comparison::{CaseCut, CaseRun, ComparedChannel, CutPoint, RunUpComparison};
 pub use run_up_correlation::{ChannelPair, CutPair, CutPeak, level_difference_db};
 pub use signal::{
     BearingWithOrders, CyclicLine, CyclicResult, EnvelopeResult, JerkResult, KurtogramResult, RaceResult,

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use super::gltf;
-use super::vtk::{Field, Grid, Values, machine_fields, part_field, write_pvd, write_vtu};
+use super::vtk::{Field, Grid, Values, machine_fields, part_field, to_binary_vtu, write_pvd, write_vtu};
 use super::vtk_machine::rounded;
 use super::vtk_motion;
 use crate::animated_scene::AnimatedScene;
+use crate::atomic_file;
 use crate::error::Error;
 use rotordyn_core::analysis::Mode;
 use rotordyn_core::geometry::scene_graph::Scene;
@@ -51,16 +52,10 @@ pub fn export_geometry(machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>,
 pub fn export_modes(results: &Results, machine: &Machine, folder: &Path) -> Result<Vec<PathBuf>, Error> {
     create_folder(folder)?;
     let grid = Grid::of_machine(&machine.model);
-    let z = &machine.model.node_z;
-    let rotor = machine
-        .model
-        .rigid_rotor
-        .as_ref()
-        .map_or(0.0, |rotor| rotordyn_core::geometry::scene::disc_size(rotor).1);
-    let length = (z.last().copied().unwrap_or(0.0) - z.first().copied().unwrap_or(0.0)).max(rotor);
+    let length = extent(machine);
     let mut files = Vec::new();
     for found in &results.modal {
-        let name = format!("modes_{:.0}rpm", found.speed * 60.0 / std::f64::consts::TAU);
+        let name = modes_name(found.speed);
         let mut frames = Vec::new();
         for (k, mode) in found.modes.iter().enumerate() {
             let file = format!("{name}_{:02}.vtu", k + 1);
@@ -72,6 +67,78 @@ pub fn export_modes(results: &Results, machine: &Machine, folder: &Path) -> Resu
         files.push(file);
     }
     Ok(files)
+}
+
+/// Writes every mode in motion: `modes_<speed>rpm_<number>.pvd` over the phase \[cycles\], with a .vtu for each of `frames`
+/// phases of a cycle in the folder `modes_<speed>rpm`; returns the .pvd files.
+///
+/// The points themselves move, Re(u e^{2πj phase}) of the size of [`export_modes`]; field `displacement` is the motion.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn export_mode_motion(
+    results: &Results,
+    machine: &Machine,
+    frames: usize,
+    folder: &Path,
+) -> Result<Vec<PathBuf>, Error> {
+    create_folder(folder)?;
+    let grid = Grid::of_machine(&machine.model);
+    let size = MODE_SHAPE_SIZE * extent(machine);
+    let mut files = Vec::new();
+    for found in &results.modal {
+        let name = modes_name(found.speed);
+        create_folder(&folder.join(&name))?;
+        for (k, mode) in found.modes.iter().enumerate() {
+            let fields = mode_fields(&grid, mode, size);
+            let vectors =
+                |name: &str| fields.iter().find(|field| field.name == name).map(|field| &field.values);
+            let (Some(Values::Vectors(now)), Some(Values::Vectors(quarter))) =
+                (vectors("displacement"), vectors("displacement_quarter"))
+            else {
+                continue;
+            };
+            let mut series = Vec::new();
+            for frame in 0..frames {
+                let phase = frame as f64 / frames as f64;
+                let (sin, cos) = (std::f64::consts::TAU * phase).sin_cos();
+                let moved: Vec<[f64; 3]> = now
+                    .iter()
+                    .zip(quarter)
+                    .map(|(a, b)| std::array::from_fn(|i| cos * a[i] + sin * b[i]))
+                    .collect();
+                let points = grid.points.iter().zip(&moved);
+                let points = points.map(|(p, u)| std::array::from_fn(|i| p[i] + u[i])).collect();
+                let displaced = Grid { points, ..grid.clone() };
+                let displacement = Field { name: "displacement".into(), values: Values::Vectors(moved) };
+                let file = format!("{name}/mode_{:02}_{frame:03}.vtu", k + 1);
+                let path = folder.join(&file);
+                let bytes = to_binary_vtu(&displaced, &[displacement, part_field(&grid)])
+                    .map_err(Error::of_file("write", &path))?;
+                atomic_file::write_derived(&path, &bytes).map_err(Error::of_file("write", &path))?;
+                series.push((phase, file));
+            }
+            let file = folder.join(format!("{name}_{:02}.pvd", k + 1));
+            write_pvd(&file, &series)?;
+            files.push(file);
+        }
+    }
+    Ok(files)
+}
+
+fn modes_name(speed: f64) -> String {
+    format!("modes_{:.0}rpm", speed * 60.0 / std::f64::consts::TAU)
+}
+
+/// Length of the shaft or of a rigid rotor \[m\].
+fn extent(machine: &Machine) -> f64 {
+    let z = &machine.model.node_z;
+    let rotor = machine
+        .model
+        .rigid_rotor
+        .as_ref()
+        .map_or(0.0, |rotor| rotordyn_core::geometry::scene::disc_size(rotor).1);
+    (z.last().copied().unwrap_or(0.0) - z.first().copied().unwrap_or(0.0)).max(rotor)
 }
 
 /// Largest turn of a part from frame to frame that viewers show in the right direction \[rad\].

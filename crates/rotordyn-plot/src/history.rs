@@ -10,6 +10,8 @@ use rotordyn_core::series::{Series, SeriesError};
 
 /// Largest number of channels in one figure.
 const MAX_CHANNELS: usize = 12;
+/// Height of the label of a panel with its margins \[px\].
+const LABEL_ROOM: f64 = 15.0;
 /// Right margin with second scales \[px\].
 const SECOND_SCALE: f64 = 66.0;
 
@@ -81,11 +83,11 @@ pub fn draw(data: &History) -> Result<Svg, SeriesError> {
     for (k, frame) in frames.iter().enumerate() {
         let channel = channels.get(k).unwrap_or(&none);
         let values = extremes([&channel.value, &channel.reference])?;
+        // Room for the label above the values.
+        let room = if channel.label.is_empty() { 0.0 } else { LABEL_ROOM / (frame.h - LABEL_ROOM) };
         let y = match channel.from_zero {
-            true => Range::with_zero(values).padded_top(0.25),
-            // Room for the label above scattered values.
-            false if !channel.mean.is_empty() => Range::of(values).padded(0.08).padded_top(0.15),
-            false => Range::of(values).padded(0.08),
+            true => Range::with_zero(values).padded_top(room.max(0.25)),
+            false => Range::of(values).padded(0.08).padded_top(room),
         };
         let axes = Axes::linear(*frame, x, y);
         axes.grid(&mut svg);

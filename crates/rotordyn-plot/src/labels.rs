@@ -165,6 +165,8 @@ impl Entry {
 }
 
 const LEGEND_ROW_HEIGHT: f64 = 18.0;
+/// Largest number of lines of a title.
+const TITLE_LINES: usize = 3;
 /// Largest number of lines of a note.
 const NOTE_LINES: usize = 4;
 
@@ -198,8 +200,8 @@ pub fn legend(svg: &mut Svg, entries: &[Entry], x: f64, y: f64, room: f64) -> f6
 pub fn page_heading(width: f64, x: f64, title: &str, note: &str, entries: &[Entry]) -> (Svg, f64) {
     let mut svg = Svg::new(width, 0.0);
     let mut y = 12.0;
-    if !title.is_empty() {
-        svg.text([x, y + 0.9 * TITLE], &font::fit(title, TITLE, width - x - 8.0), Text::new(TITLE, INK));
+    for line in font::wrapped(title, TITLE, width - x - 8.0, TITLE_LINES) {
+        svg.text([x, y + 0.9 * TITLE], &line, Text::new(TITLE, INK));
         y += 1.5 * TITLE;
     }
     for line in font::wrapped(note, TICK, width - x - 8.0, NOTE_LINES) {

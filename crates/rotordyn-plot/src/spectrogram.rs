@@ -22,9 +22,22 @@ pub struct SpectrogramPanel {
     pub hz: Vec<f64>,
     /// Levels \[dB\], `level_db[i * hz.len() + j]` at `rpm[i]`, `hz[j]`.
     pub level_db: Series,
+    /// Lines of this run alone; without any those of the figure.
+    pub orders: Vec<OrderLine>,
+    pub branches: Vec<Branch>,
 }
 
-/// Data of a spectrogram over speed; several panels are drawn in a row on common scales.
+impl SpectrogramPanel {
+    fn orders<'a>(&'a self, figure: &'a Spectrogram) -> &'a [OrderLine] {
+        if self.orders.is_empty() { &figure.orders } else { &self.orders }
+    }
+
+    fn branches<'a>(&'a self, figure: &'a Spectrogram) -> &'a [Branch] {
+        if self.branches.is_empty() { &figure.branches } else { &self.branches }
+    }
+}
+
+/// Data of a spectrogram over speed; several panels are drawn in rows on common scales.
 #[derive(Clone, Debug, Default)]
 pub struct Spectrogram {
     pub title: String,
@@ -45,12 +58,14 @@ pub struct Spectrogram {
 /// Levels that cannot be read.
 pub fn draw(data: &Spectrogram) -> Result<Svg, SeriesError> {
     let mut kinds: Vec<Entry> = Vec::new();
-    for whirl in data.branches.iter().flat_map(|b| b.whirl.iter().copied()) {
+    let branches = || data.panels.iter().flat_map(|p| p.branches(data)).chain(&data.branches);
+    let orders = || data.panels.iter().flat_map(|p| p.orders(data)).chain(&data.orders);
+    for whirl in branches().flat_map(|b| b.whirl.iter().copied()) {
         if kinds.iter().all(|k| k.text != whirl.name()) {
             kinds.push(Entry::line(whirl.name(), Style::stroke(whirl.color(), 1.3)));
         }
     }
-    let names = data.branches.iter().map(|b| &b.label).chain(data.orders.iter().map(|o| &o.label));
+    let names = branches().map(|b| &b.label).chain(orders().map(|o| &o.label));
     let room = end_label_width(names.cloned());
     let row = PanelRow::new(data.panels.len(), WIDTH - LEFT - room - COLOR_BAR_WIDTH);
     let page = LEFT + row.width() + room + COLOR_BAR_WIDTH;
@@ -64,30 +79,31 @@ pub fn draw(data: &Spectrogram) -> Result<Svg, SeriesError> {
     let levels = data.panels.iter().try_fold(None, |seen, p| p.level_db.fold(seen, widened))?;
     let bounds = heat::bounds_between(levels, data.span_db);
     let count = data.panels.len().max(1);
+    let none = SpectrogramPanel::default();
+    // The panels of a row have the same lines as a rule: only those of its last are labelled.
     for k in 0..count {
         let axes = Axes::linear(row.frame(k, top + 16.0, 420.0), x, y);
-        if let Some(panel) = data.panels.get(k) {
-            heat::draw_rows(&mut svg, &axes, bounds, [&panel.rpm, &panel.hz], &panel.level_db)?;
-        }
+        let panel = data.panels.get(k).unwrap_or(&none);
+        heat::draw_rows(&mut svg, &axes, bounds, [&panel.rpm, &panel.hz], &panel.level_db)?;
         // A pale edge keeps the dashes visible on dark levels.
-        for order in &data.orders {
+        for order in panel.orders(data) {
             let at = |rpm: f64| [rpm, order.order * rpm / 60.0];
             axes.segment(&mut svg, at(x.lo), at(x.hi), Style::stroke(WHITE, 2.0).faint(0.45));
         }
-        let mut labels = order_lines(&mut svg, &axes, &data.orders);
-        for branch in &data.branches {
+        let mut labels = order_lines(&mut svg, &axes, panel.orders(data));
+        for branch in panel.branches(data) {
             // A white edge separates the thin line from the ridge below.
             axes.curve(&mut svg, &branch.rpm, &branch.hz, Style::stroke(WHITE, 2.6).faint(0.75));
             branch.curves(&mut svg, &axes, &branch.hz, |whirl| Style::stroke(whirl.color(), 1.1));
         }
-        labels.extend(branch_ends(&axes, &data.branches));
+        labels.extend(branch_ends(&axes, panel.branches(data)));
         row.border(&mut svg, &axes, k, ("shaft speed", "rpm"), ("frequency", "Hz"));
-        row.name(&mut svg, axes.frame, data.panels.get(k).map_or("", |p| &p.name));
-        // The panels have the same lines: only those of the last are labelled.
-        if k + 1 == count {
+        row.name(&mut svg, axes.frame, &panel.name);
+        if row.ends_row(k) {
             end_labels(&mut svg, &axes, &labels);
             let label = format!("{} [{}]", data.quantity, data.unit);
-            color_bar(&mut svg, axes.frame, page - COLOR_BAR_WIDTH, bounds, &label);
+            let right = axes.frame.right() + room;
+            color_bar(&mut svg, axes.frame, right, bounds, &label);
             svg.height = axes.frame.bottom() + BOTTOM;
         }
     }

@@ -27,7 +27,7 @@ pub struct WaterfallPanel {
     pub amplitude: Vec<f64>,
 }
 
-/// Data of a waterfall; several panels are drawn in a row on common scales.
+/// Data of a waterfall; several panels are drawn in rows on common scales.
 #[derive(Clone, Debug, Default)]
 pub struct Waterfall {
     pub title: String,
@@ -61,8 +61,8 @@ pub fn draw(data: &Waterfall) -> Svg {
         let labels = cursors(&mut svg, &axes, &data.orders);
         row.border(&mut svg, &axes, k, ("frequency", "Hz"), ("shaft speed", "rpm"));
         row.name(&mut svg, frame, data.panels.get(k).map_or("", |p| &p.name));
-        // The panels have the same lines: only those of the last are labelled.
-        if k + 1 == count {
+        // The panels of a row have the same lines: only those of its last are labelled.
+        if row.ends_row(k) {
             end_labels(&mut svg, &axes, &labels);
             if px_per_unit > 0.0 {
                 scale_bar(&mut svg, frame, highest, px_per_unit, &data.unit);

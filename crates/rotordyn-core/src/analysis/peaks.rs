@@ -107,7 +107,7 @@ pub fn peaks(speeds: &[f64], amplitudes: &[f64]) -> Vec<Peak> {
 }
 
 /// Maximum of the parabola through three points, the middle one highest.
-fn parabola(x: [f64; 3], y: [f64; 3]) -> (f64, f64) {
+pub(crate) fn parabola(x: [f64; 3], y: [f64; 3]) -> (f64, f64) {
     let (left, right) = ((y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1]));
     let curvature = (right - left) / (x[2] - x[0]);
     if curvature >= 0.0 {

@@ -6,7 +6,7 @@ use super::signal::{ShaftMotion, SignalChannel};
 use super::{Machine, StudyError};
 use crate::model::study::{OrderStudy, SpectrogramStudy};
 use crate::model::{Model, Probe, SpeedProfile};
-use crate::results::{ChannelPair, CutPair, CutPeak, History, OrderLine, OrderResult};
+use crate::results::{ChannelPair, CutPair, CutPeak, History, OrderLine, OrderResult, SpectrogramResult};
 use rotordyn_linalg::{Outside, piecewise};
 use rotordyn_signal::SignalError;
 use rotordyn_signal::order::OrderCut;
@@ -92,7 +92,7 @@ fn speed_profile(angle: &[f64], rate: f64) -> SpeedProfile {
     SpeedProfile::Pulses { points, duration: last as f64 / rate }
 }
 
-fn rms(values: &[f64]) -> f64 {
+pub(super) fn rms(values: &[f64]) -> f64 {
     (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }
 
@@ -107,27 +107,9 @@ impl Machine {
         measured: &History,
         computed: &History,
     ) -> Result<Vec<ChannelPair>, StudyError> {
-        let studies = &self.model.studies;
-        let (Some(spectra), Some(orders)) = (&studies.spectrogram, &studies.orders) else {
-            return Ok(Vec::new());
-        };
-        let rate = measured.sample_rate.min(computed.sample_rate);
-        let fastest = measured.speed.fold(0.0, f64::max)? / std::f64::consts::TAU;
-        let spectra = SpectrogramStudy {
-            channels: Vec::new(),
-            max_frequency: spectra.max_frequency.min(0.5 * rate),
-            ..spectra.clone()
-        };
-        let max_order = orders.max_order.min(0.95 * rate / (SAMPLES_PER_ORDER * fastest));
-        let cuts: Vec<f64> = if orders.cuts.is_empty() { DEFAULT_CUTS.to_vec() } else { orders.cuts.clone() };
-        let orders = OrderStudy {
-            channels: Vec::new(),
-            max_order,
-            cuts: cuts.into_iter().filter(|order| *order < max_order).collect(),
-            bandwidth: None,
-            ..orders.clone()
-        };
         let runs = [measured, computed];
+        let rate = measured.sample_rate.min(computed.sample_rate);
+        let Some((spectra, orders)) = self.spectra_within(measured, rate)? else { return Ok(Vec::new()) };
         let mut maps = Vec::new();
         let mut tracked = Vec::new();
         for run in runs {
@@ -156,6 +138,47 @@ impl Machine {
         }
         Ok(pairs)
     }
+
+    /// Spectrograms and order tracking of every channel of a run, by the settings of the model's studies within the range
+    /// of its sampling rate.
+    ///
+    /// # Errors
+    /// As [`Self::correlate_run_up`].
+    pub fn spectra_of_run(
+        &self,
+        run: &History,
+    ) -> Result<(Vec<SpectrogramResult>, Vec<OrderResult>), StudyError> {
+        match self.spectra_within(run, run.sample_rate)? {
+            Some((spectra, orders)) => Ok((self.spectrograms(&spectra, run)?, self.orders(&orders, run)?)),
+            None => Ok((Vec::new(), Vec::new())),
+        }
+    }
+
+    /// Settings of the studies for every channel at a sampling rate; `None` if the model lacks one of the two.
+    fn spectra_within(
+        &self,
+        run: &History,
+        rate: f64,
+    ) -> Result<Option<(SpectrogramStudy, OrderStudy)>, StudyError> {
+        let studies = &self.model.studies;
+        let (Some(spectra), Some(orders)) = (&studies.spectrogram, &studies.orders) else { return Ok(None) };
+        let fastest = run.speed.fold(0.0, f64::max)? / std::f64::consts::TAU;
+        let spectra = SpectrogramStudy {
+            channels: Vec::new(),
+            max_frequency: spectra.max_frequency.min(0.5 * rate),
+            ..spectra.clone()
+        };
+        let max_order = orders.max_order.min(0.95 * rate / (SAMPLES_PER_ORDER * fastest));
+        let cuts: Vec<f64> = if orders.cuts.is_empty() { DEFAULT_CUTS.to_vec() } else { orders.cuts.clone() };
+        let orders = OrderStudy {
+            channels: Vec::new(),
+            max_order,
+            cuts: cuts.into_iter().filter(|order| *order < max_order).collect(),
+            bandwidth: None,
+            ..orders.clone()
+        };
+        Ok(Some((spectra, orders)))
+    }
 }
 
 fn cut_pairs(measured: &OrderResult, computed: &OrderResult) -> Vec<CutPair> {
@@ -167,7 +190,7 @@ fn cut_pairs(measured: &OrderResult, computed: &OrderResult) -> Vec<CutPair> {
     measured.cuts.iter().zip(&computed.cuts).map(pair).collect()
 }
 
-fn peak(cut: &OrderCut) -> CutPeak {
+pub(super) fn peak(cut: &OrderCut) -> CutPeak {
     let Some(k) = (0..cut.rms.len()).max_by(|a, b| cut.rms[*a].total_cmp(&cut.rms[*b])) else {
         return CutPeak::default();
     };
@@ -196,7 +219,7 @@ fn vertex(cut: &OrderCut, k: usize) -> Option<(f64, f64)> {
 
 /// Correlation (MAC-like, (Σ m c)² / (Σ m² Σ c²)) over the measured windows, computed levels interpolated
 /// linearly.
-fn correlation(measured: &OrderCut, computed: &OrderCut) -> f64 {
+pub(super) fn correlation(measured: &OrderCut, computed: &OrderCut) -> f64 {
     let levels: Vec<[f64; 2]> =
         computed.times.iter().zip(&computed.rms).map(|(t, level)| [*t, *level]).collect();
     let (mut both, mut own, mut other) = (0.0, 0.0, 0.0);

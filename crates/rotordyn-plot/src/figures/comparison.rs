@@ -1,67 +1,81 @@
-//! FRFs and Campbell diagrams of model variants on common axes.
+//! FRFs, unbalance responses and Campbell diagrams of cases of a machine on common axes, with measured FRFs.
 
-use super::display_unit::typographic_unit;
-use super::response::frf_curve;
+use super::display_unit::{quantity, typographic_unit, unit};
 use super::{Named, TO_RPM, campbell};
-use crate::{Curve, Figure, Frf, Lines};
+use crate::{Bode, BodeCurve, Curve, Figure, Frf, FrfCurve, Lines};
 use rotordyn_core::analysis::Mode;
-use rotordyn_core::results::FrfResult;
-use rotordyn_core::study::Results;
+use rotordyn_core::results::{
+    CampbellResult, CaseFrf, CaseUnbalance, ComparedFrf, ComparedUnbalance, FrfComparison,
+    UnbalanceComparison,
+};
 
-pub fn figures(variants: &[(String, &Results)]) -> Vec<Named> {
-    let mut figures = frfs(variants);
-    figures.extend(campbell(variants));
-    figures
+/// What of the cases is drawn; `note` stands below the titles.
+#[derive(Clone, Copy)]
+pub struct LinearComparison<'a> {
+    pub note: &'a str,
+    pub frfs: Option<&'a FrfComparison>,
+    pub unbalance: Option<&'a UnbalanceComparison>,
+    /// By the names of the cases.
+    pub campbell: &'a [(&'a str, &'a CampbellResult)],
 }
 
-/// One figure for every excitation and response present in at least two variants.
-fn frfs(variants: &[(String, &Results)]) -> Vec<Named> {
-    let with: Vec<(&str, &FrfResult)> =
-        variants.iter().filter_map(|(name, r)| Some((name.as_str(), r.frf.as_ref()?))).collect();
-    let mut ends: Vec<(&String, &String)> = Vec::new();
-    for (_, found) in &with {
-        for end in found.excitations.iter().flat_map(|e| found.responses.iter().map(move |r| (e, r))) {
-            if !ends.contains(&end) {
-                ends.push(end);
-            }
-        }
-    }
-    let mut figures = Vec::new();
-    for (excitation, response) in ends {
-        let mut unit = "";
-        let mut name = "";
-        let mut curves = Vec::new();
-        for (variant, found) in &with {
-            let e = found.excitations.iter().position(|n| n == excitation);
-            let r = found.responses.iter().position(|n| n == response);
-            if let (Some(e), Some(r)) = (e, r)
-                && found.is_coupled(r, e)
-            {
-                (unit, name) = (&found.units[r][e], found.name());
-                curves.push(frf_curve(found, r, e, variant));
-            }
-        }
-        if curves.len() > 1 {
-            let figure = Frf {
-                title: format!("FRF: response {response}, force at {excitation}"),
-                note: "by variant".into(),
-                quantity: name.into(),
-                unit: typographic_unit(unit),
-                curves,
-            };
-            figures.push((format!("comparison_frf_{excitation}_{response}"), Figure::Frf(figure)));
-        }
-    }
-    figures
+pub fn figures(compared: LinearComparison) -> Vec<Named> {
+    let note = compared.note;
+    let frfs =
+        compared.frfs.iter().flat_map(|found| found.pairs.iter().map(move |pair| frf(found, pair, note)));
+    let unbalance =
+        compared.unbalance.iter().flat_map(|found| found.probes.iter().map(move |p| bode(p, note)));
+    frfs.chain(unbalance).chain(diagrams(compared.campbell, note)).collect()
 }
 
-/// Mode branches of all variants, one line style per variant.
-fn campbell(variants: &[(String, &Results)]) -> Option<Named> {
-    let found = || variants.iter().filter_map(|(name, results)| Some((name, results.campbell.as_ref()?)));
-    let top = found().map(|(_, c)| campbell::max_frequency(&campbell::branches(c), c)).fold(0.0, f64::max);
+/// One response to one excitation.
+fn frf(found: &FrfComparison, pair: &ComparedFrf, note: &str) -> Named {
+    let curve = |c: &CaseFrf| FrfCurve {
+        label: c.case.clone(),
+        hz: c.points.iter().map(|p| p.hz).collect(),
+        re: c.points.iter().map(|p| p.value.re).collect(),
+        im: c.points.iter().map(|p| p.value.im).collect(),
+        coherence: c.points.iter().filter_map(|p| p.coherence).collect(),
+    };
+    let figure = Frf {
+        title: format!("FRF: response {}, force at {}", pair.response, pair.excitation),
+        note: note.into(),
+        quantity: found.quantity.clone(),
+        unit: typographic_unit(&pair.unit),
+        curves: pair.curves.iter().map(curve).collect(),
+        apart: false,
+    };
+    (format!("comparison_frf_{}_{}", pair.excitation, pair.response), Figure::Frf(figure))
+}
+
+/// The synchronous response of one probe.
+fn bode(probe: &ComparedUnbalance, note: &str) -> Named {
+    let shown = unit(&probe.unit);
+    let curve = |c: &CaseUnbalance| BodeCurve {
+        label: c.case.clone(),
+        rpm: c.points.iter().map(|p| p.rpm).collect(),
+        amplitude: c.points.iter().map(|p| p.amplitude * shown.factor).collect(),
+        phase_deg: c.points.iter().map(|p| p.phase_deg).collect(),
+    };
+    let figure = Bode {
+        title: format!("Unbalance response, {}", probe.probe),
+        note: note.into(),
+        quantity: format!("{}, 0–peak", quantity(&probe.unit)),
+        unit: shown.name.into(),
+        curves: probe.curves.iter().map(curve).collect(),
+        log: true,
+        criticals: Vec::new(),
+    };
+    (format!("comparison_unbalance_{}", probe.probe), Figure::Bode(figure))
+}
+
+/// Mode branches of all cases, one line style per case.
+fn diagrams(cases: &[(&str, &CampbellResult)], note: &str) -> Option<Named> {
+    let top =
+        cases.iter().map(|(_, c)| campbell::max_frequency(&campbell::branches(c), c)).fold(0.0, f64::max);
     let mut curves = Vec::new();
-    for (name, found) in found() {
-        let mut curve = Curve { label: name.clone(), ..Curve::default() };
+    for (name, found) in cases {
+        let mut curve = Curve { label: (*name).into(), ..Curve::default() };
         for branch in &found.diagram.branches {
             for (speed, mode) in found.diagram.speeds.iter().zip(&branch.modes) {
                 curve.x.push(speed * TO_RPM);
@@ -76,7 +90,7 @@ fn campbell(variants: &[(String, &Results)]) -> Option<Named> {
     }
     let figure = Lines {
         title: "Campbell diagrams".into(),
-        note: "by variant".into(),
+        note: note.into(),
         x_name: "shaft speed".into(),
         x_unit: "rpm".into(),
         y_name: "natural frequency".into(),

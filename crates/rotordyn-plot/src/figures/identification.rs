@@ -132,6 +132,7 @@ fn fits(found: &ModalIdentification, frfs: &FrfMatrix, title: &str) -> Vec<Named
                     curve("measured", &found.measured[r][e], coherence.unwrap_or_default()),
                     curve("synthesised", &found.synthesised[r][e], Vec::new()),
                 ],
+                apart: false,
             };
             let plain = |dof: Dof| dof.to_string().replace(['+', ':'], "");
             (format!("frf_fit_{}_{}", plain(response), plain(reference)), Figure::Frf(figure))

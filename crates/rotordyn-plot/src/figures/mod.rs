@@ -24,7 +24,8 @@
 //! | `validation_mac`, `validation_frequencies`, `validation_frf_...`, `validation_frac`, `validation_fdac` | correlation of model and measurement; `update_...` before and after |
 //! | `run_up_spectrogram_<channel>`, `run_up_waterfall_<channel>`, `run_up_order_cuts_<channel>` | measured and computed run-up |
 //! | `<section>_<quantity>` | quantities that the results' documents mark as drawn, over their axis |
-//! | `comparison_frf_...`, `comparison_campbell` | model variants on common axes |
+//! | `comparison_frf_...`, `comparison_unbalance_...`, `comparison_campbell` | cases of a model on common axes, with measured FRFs |
+//! | `comparison_spectrogram_<channel>`, `comparison_waterfall_<channel>`, `comparison_order_cuts_<channel>` | run-ups of cases side by side, with a measured one |
 
 mod bearing;
 mod campbell;
@@ -42,6 +43,7 @@ mod response;
 mod rotor_maps;
 mod run;
 mod run_free_ball;
+mod run_up_comparison;
 mod run_up_correlation;
 mod shaft_loads;
 mod signal;
@@ -51,6 +53,7 @@ mod steady;
 mod trend;
 mod validation;
 
+pub use comparison::LinearComparison;
 use concern::Concern;
 pub use folder::FigureFolder;
 pub use machine::layout;
@@ -66,7 +69,9 @@ use crate::FigureError;
 use crate::{self as plot, Figure};
 use rotordyn_core::document::Section;
 use rotordyn_core::model::BearingSite;
-use rotordyn_core::results::{BearingResult, CampbellResult, ChannelPair, SignalResult, TrendResult};
+use rotordyn_core::results::{
+    BearingResult, CampbellResult, ChannelPair, RunUpComparison, SignalResult, TrendResult,
+};
 use rotordyn_core::study::{Machine, Results};
 use rotordyn_update::target::Target;
 
@@ -253,15 +258,29 @@ fn bearing_figures(found: &BearingResult, title: &str) -> impl Iterator<Item = N
     bearing::figures(found, title).into_iter().chain(free).chain(skidding)
 }
 
-/// Draws the FRFs and Campbell diagrams of several variants of a model on common axes; returns the SVG files.
+/// Draws FRFs, unbalance responses and Campbell diagrams of several cases of a model on common axes; returns the SVG
+/// files.
 ///
 /// # Errors
 /// A file cannot be written.
 pub fn draw_comparison<'a>(
-    variants: &[(String, &Results)],
+    compared: LinearComparison,
     folder: impl Into<FigureFolder<'a>>,
 ) -> Result<Vec<PathBuf>, FigureError> {
-    write_plain(comparison::figures(variants), folder)
+    write_plain(comparison::figures(compared), folder)
+}
+
+/// Draws run-ups of several cases, with the linear natural frequencies of each; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written, or stored numbers cannot be read.
+pub fn draw_run_up_comparison<'a>(
+    found: &RunUpComparison,
+    campbell: &[Option<&CampbellResult>],
+    machine: &Machine,
+    folder: impl Into<FigureFolder<'a>>,
+) -> Result<Vec<PathBuf>, FigureError> {
+    write_plain(run_up_comparison::figures(found, campbell, machine)?, folder)
 }
 
 /// Draws the comparison of a measurement with stages of a model; file names start with `prefix`. Returns the

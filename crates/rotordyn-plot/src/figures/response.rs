@@ -9,6 +9,8 @@ use rotordyn_core::results::{DiscOrbit, FrfResult, UnbalanceChannel, UnbalanceRe
 use rotordyn_core::study::{Machine, Results};
 use rotordyn_linalg::Complex64;
 
+/// Most FRFs on common axes; more have a panel each.
+const MAX_TOGETHER: usize = 4;
 /// Points of a drawn orbit.
 const ORBIT_POINTS: usize = 181;
 
@@ -30,6 +32,7 @@ pub fn frf(found: &FrfResult, machine: &Machine) -> Vec<Named> {
                 note: format!("{}, {:.0} rpm", machine.model.title, found.speed * TO_RPM),
                 quantity: found.name().into(),
                 unit: typographic_unit(unit),
+                apart: curves.len() > MAX_TOGETHER,
                 curves,
             };
             let rotation = if unit.starts_with("rad") || unit.starts_with("(rad") { "_rotation" } else { "" };

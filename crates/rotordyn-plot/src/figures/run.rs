@@ -120,8 +120,16 @@ pub fn spectrogram(
     machine: &Machine,
 ) -> Result<Vec<Named>, SeriesError> {
     let title = format!("Spectra of the run-up, {}", found.channel);
-    let figures = spectrograms(&[("", found)], &title, campbell, machine)?.into_iter();
+    let run = SpectraOfRun { name: "", found, campbell };
+    let figures = spectrograms(&[run], &title, machine)?.into_iter();
     Ok(figures.map(|(kind, figure)| (format!("{kind}_{}", found.channel), figure)).collect())
+}
+
+/// Spectra of one channel of a run, and the linear natural frequencies drawn over them.
+pub(super) struct SpectraOfRun<'a> {
+    pub name: &'a str,
+    pub found: &'a SpectrogramResult,
+    pub campbell: Option<&'a CampbellResult>,
 }
 
 /// Spectrogram map and waterfall of one channel, one panel per named run; kinds "spectrogram" and
@@ -130,27 +138,28 @@ pub fn spectrogram(
 /// # Errors
 /// Amplitudes that cannot be read.
 pub(super) fn spectrograms(
-    runs: &[(&str, &SpectrogramResult)],
+    runs: &[SpectraOfRun],
     title: &str,
-    campbell: Option<&CampbellResult>,
     machine: &Machine,
 ) -> Result<Vec<(&'static str, Figure)>, SeriesError> {
-    let Some((_, first)) = runs.first() else { return Ok(Vec::new()) };
+    let Some(SpectraOfRun { found: first, .. }) = runs.first() else { return Ok(Vec::new()) };
     let shown = unit(&first.unit);
-    let highest = runs.iter().filter_map(|(_, r)| r.spectrogram.frequencies.last()).copied();
+    let highest = runs.iter().filter_map(|run| run.found.spectrogram.frequencies.last()).copied();
     let highest = highest.fold(0.0, f64::max);
     let visible = |b: &Branch| b.hz.iter().any(|hz| *hz <= highest);
-    let linear: Vec<Branch> = campbell.map(branches).into_iter().flatten().filter(visible).collect();
     let orders = order_lines(&first.orders);
     let note = machine.model.title.clone();
     let span_db =
         machine.model.studies.spectrogram.as_ref().map_or(DYNAMIC_RANGE_DB, |study| study.dynamic_range_db);
-    let rpm: Vec<Vec<f64>> = runs.iter().map(|(_, r)| r.speed.iter().map(|w| w * TO_RPM).collect()).collect();
-    let panel = |((name, found), rpm): (&(&str, &SpectrogramResult), &Vec<f64>)| SpectrogramPanel {
-        name: (*name).into(),
+    let rpm: Vec<Vec<f64>> =
+        runs.iter().map(|run| run.found.speed.iter().map(|w| w * TO_RPM).collect()).collect();
+    let panel = |(run, rpm): (&SpectraOfRun, &Vec<f64>)| SpectrogramPanel {
+        name: run.name.into(),
         rpm: rpm.clone(),
-        hz: found.spectrogram.frequencies.clone(),
-        level_db: decibels_of(&found.spectrogram.amplitude, shown),
+        hz: run.found.spectrogram.frequencies.clone(),
+        level_db: decibels_of(&run.found.spectrogram.amplitude, shown),
+        orders: order_lines(&run.found.orders),
+        branches: run.campbell.map(branches).into_iter().flatten().filter(visible).collect(),
     };
     let map = Spectrogram {
         title: title.into(),
@@ -159,20 +168,19 @@ pub(super) fn spectrograms(
         quantity: format!("{} level", quantity(&first.unit)),
         unit: reference(shown),
         span_db,
-        orders: orders.clone(),
-        branches: linear,
         max_hz: Some(highest),
+        ..Spectrogram::default()
     };
     let mut figures = vec![("spectrogram", Figure::Spectrogram(map))];
-    let amplitudes = runs.iter().map(|(_, found)| found.spectrogram.amplitude.all());
+    let amplitudes = runs.iter().map(|run| run.found.spectrogram.amplitude.all());
     let amplitudes = amplitudes.collect::<Result<Vec<_>, _>>()?;
     let spectra: Vec<SpectraOverSpeed> = runs
         .iter()
         .zip(rpm.iter().zip(&amplitudes))
-        .map(|((name, found), (rpm, amplitude))| SpectraOverSpeed {
-            name,
+        .map(|(run, (rpm, amplitude))| SpectraOverSpeed {
+            name: run.name,
             rpm,
-            hz: &found.spectrogram.frequencies,
+            hz: &run.found.spectrogram.frequencies,
             amplitude,
         })
         .collect();

@@ -3,7 +3,7 @@
 
 use super::Named;
 use super::display_unit::{quantity, unit};
-use super::run::spectrograms;
+use super::run::{SpectraOfRun, spectrograms};
 use crate::{Curve, Figure, Grid, GridPanel};
 use rotordyn_core::results::{CampbellResult, ChannelPair, OrderResult};
 use rotordyn_core::series::SeriesError;
@@ -22,7 +22,8 @@ pub fn figures(
         let [measured, computed] = &pair.spectrograms;
         let title = format!("Run-up, {}: measured and computed", pair.channel);
         let runs = [("measured", measured), ("computed", computed)];
-        let maps = spectrograms(&runs, &title, campbell, machine)?;
+        let maps =
+            spectrograms(&runs.map(|(name, found)| SpectraOfRun { name, found, campbell }), &title, machine)?;
         let cuts = ("order_cuts", Figure::Grid(cuts(pair, machine)));
         let named = |(kind, figure)| (format!("{prefix}_{kind}_{}", pair.channel), figure);
         figures.extend(maps.into_iter().chain([cuts]).map(named));

@@ -109,6 +109,7 @@ fn over_speed(r: &SignalResult, found: &SpectrogramWithSpeed, note: &str) -> Vec
             rpm: found.rpm.clone(),
             hz: found.map.frequencies.clone(),
             level_db: level_db.into(),
+            ..SpectrogramPanel::default()
         }],
         quantity: format!("{} level", quantity_name(r)),
         unit,

@@ -132,6 +132,7 @@ fn overlays(prefix: &str, measured: &TargetFrfs, stages: &[Stage]) -> Vec<Named>
             quantity: quantity.into(),
             unit: typographic_unit(&unit),
             curves,
+            apart: false,
         };
         out.push((format!("{prefix}_frf_{from}_{to}"), Figure::Frf(figure)));
     }

@@ -48,16 +48,14 @@ impl Machine {
             .bearings
             .iter()
             .zip(&self.standstill_equilibrium.bearings)
-            .zip(&result.bearing_displacements);
+            .zip(result.bearing_displacements.iter().zip(&result.bearing_forces));
         let mut found = Vec::new();
-        for ((site, state), displacements) in bearings {
+        for ((site, state), (displacements, forces)) in bearings {
             let Some(compression) = largest_compression(state) else { continue };
             let all_loaded = state.balls.iter().all(|contact| contact.load > 0.0);
             let static_force = state.force[0].hypot(state.force[1]);
-            let openings = result.speeds.iter().zip(displacements).map(|(speed, &d)| {
-                let displacement = semi_major_axis(d);
-                let k = &state.tangent.stiffness;
-                let force = semi_major_axis([0, 1].map(|i| d[0] * k[i][0] + d[1] * k[i][1]));
+            let openings = result.speeds.iter().zip(displacements).enumerate().map(|(k, (speed, &d))| {
+                let (displacement, force) = (semi_major_axis(d), forces.amplitude(k));
                 let by_force = if all_loaded { 0.0 } else { force / static_force };
                 let excess = (displacement / compression).max(by_force);
                 Opening { speed: *speed, displacement, force, excess }
