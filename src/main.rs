@@ -2,6 +2,11 @@
 
 mod cli;
 
-fn main() -> std::process::ExitCode {
-    cli::run()
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match cli::hdf5_reader::run(std::env::args_os()) {
+        Some(code) => code,
+        None => cli::command(std::env::args_os(), cli::limits::program()).into(),
+    }
 }

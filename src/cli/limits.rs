@@ -8,9 +8,9 @@ use rotordyn::io::budget::Limits;
 static LIMITS: OnceLock<Limits> = OnceLock::new();
 
 /// Sets the limits for the whole run of the program, at its start; `memory` \[bytes\] is that of the flag.
-pub fn set(memory: Option<u64>) {
+pub fn set(memory: Option<u64>, hdf5_program: Option<PathBuf>) {
     // Only the first call sets them, and there is one.
-    let _ = LIMITS.set(Limits { memory, hdf5_program: program() });
+    let _ = LIMITS.set(Limits { memory, hdf5_program });
 }
 
 /// The limits for reading files.
@@ -19,7 +19,7 @@ pub fn limits() -> &'static Limits {
 }
 
 /// This program. On Linux it is found even if its file was replaced since it was started.
-fn program() -> Option<PathBuf> {
+pub fn program() -> Option<PathBuf> {
     let running = PathBuf::from("/proc/self/exe");
     if cfg!(target_os = "linux") && running.exists() { Some(running) } else { std::env::current_exe().ok() }
 }

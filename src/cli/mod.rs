@@ -1,40 +1,40 @@
 //! Command-line interface: parses arguments, runs studies, prints tables, writes files, sets the exit code.
 
-mod args;
+pub(crate) mod args;
 mod ball_motion_tables;
 mod bearing;
 mod bearing_motion;
 mod bearing_tables;
 mod cage_tables;
-mod catalogue;
+pub(crate) mod catalogue;
 mod check;
 mod checkpoint;
 mod command_help;
 mod compare;
 mod csv_files;
 mod defaults;
-mod diagnostics;
-mod ehl_films;
+pub(crate) mod diagnostics;
+pub(crate) mod ehl_films;
 mod equilibrium_loads;
 mod export;
-mod failure;
+pub(crate) mod failure;
 mod folder_lock;
 mod forecast;
 mod free_ball_runs;
 mod free_ball_tables;
 mod free_parameters;
-mod hdf5_reader;
+pub(crate) mod hdf5_reader;
 mod help;
 mod identify;
 mod identify_tables;
 mod init;
-mod interrupt;
+pub(crate) mod interrupt;
 mod job_files;
-mod limits;
-mod machine;
+pub(crate) mod limits;
+pub(crate) mod machine;
 mod measured;
 mod noisy_frf;
-mod outcome;
+pub(crate) mod outcome;
 mod previous_files;
 mod printed;
 mod renamed;
@@ -46,25 +46,27 @@ mod run_up;
 mod run_up_correlation;
 mod run_up_tables;
 mod setting_sources;
-mod settings;
-mod signal;
+pub(crate) mod settings;
+pub(crate) mod signal;
 mod steady;
 mod steady_settings;
 mod steady_tables;
-mod store;
+pub(crate) mod store;
 mod stored_run;
-mod studies;
+pub(crate) mod studies;
+pub(crate) mod study_command;
 mod system;
 mod tables;
-mod terminal;
+pub(crate) mod terminal;
 mod trend;
 mod unbalance_tables;
 mod update;
 mod validate;
 
 use outcome::{Outcome, finish, print_model_warnings, print_written_files, report};
+use std::ffi::OsString;
 use std::io::Write;
-use std::process::ExitCode;
+use std::path::PathBuf;
 
 use clap::Parser;
 use rotordyn::model::{Diagnostic, Model};
@@ -79,6 +81,7 @@ use machine::ModelSource;
 use run_identity::RunIdentity;
 use settings::Settings;
 use studies::{Job, Study};
+use study_command::StudyCommand;
 use terminal::Terminal;
 
 /// Exit code of a file error.
@@ -86,11 +89,10 @@ const FILE_ERROR_EXIT_CODE: u8 = 4;
 /// Exit code of a run with warnings under `--strict`.
 const WARNINGS_EXIT_CODE: u8 = 5;
 
-/// Entry point of the program.
-pub fn run() -> ExitCode {
-    if let Some(code) = hdf5_reader::run(std::env::args_os()) {
-        return code;
-    }
+/// Performs the command of a command line, of which the first word is the name of the program; returns the exit code.
+///
+/// `hdf5_program`: the program to be started for reading HDF5 files.
+pub fn command(arguments: impl IntoIterator<Item = OsString>, hdf5_program: Option<PathBuf>) -> u8 {
     std::panic::set_hook(Box::new(|bug| {
         // Not `eprintln`, which panics if standard error cannot be written.
         let _ = writeln!(
@@ -99,8 +101,8 @@ pub fn run() -> ExitCode {
             env!("CARGO_PKG_VERSION")
         );
     }));
-    let mut cli = Cli::parse();
-    limits::set(cli.output.read_limit);
+    let mut cli = Cli::parse_from(arguments);
+    limits::set(cli.output.read_limit, hdf5_program);
     let terminal = Terminal::new(&cli.output);
     if let Some(threads) = cli.output.threads {
         // Fails only if the global pool already exists; nothing has created it yet.
@@ -130,78 +132,20 @@ pub fn run() -> ExitCode {
 }
 
 /// Ends the program. After a failed write HDF5 would try it again when it is unloaded, and can crash there.
-fn leave(code: u8) -> ExitCode {
+fn leave(code: u8) -> u8 {
     if code == FILE_ERROR_EXIT_CODE {
         interrupt::end_at_once(code);
     }
-    code.into()
+    code
 }
 
 fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
-    let run_one = |args: &StudyArgs, study: Study, settings: &dyn Fn(&Model) -> Settings| {
-        studies_of(args, None, terminal, Some(study), settings)
-    };
-    let resumable = |args, checkpoints, study: Study, settings: &dyn Fn(&Model) -> Settings| {
-        studies_of(args, Some(checkpoints), terminal, Some(study), settings)
-    };
     match command {
         Command::Run { study, checkpoints } => {
             studies_of(study, Some(checkpoints), terminal, None, &|_| Settings::default())
         }
         Command::Init(args) => init::run(args, terminal).map(Outcome::from),
         Command::Check(args) => check::run(args, terminal).map(Outcome::from),
-        Command::Static { study, speed, fixed_cage_angle } => run_one(study, Study::Static, &|model| {
-            settings::equilibrium(model, speed.as_ref(), *fixed_cage_angle)
-        }),
-        Command::Modal { study, speed, modes } => {
-            run_one(study, Study::Modal, &|model| settings::modal(model, speed.as_ref(), *modes))
-        }
-        Command::Campbell { study, max_speed, modes } => {
-            run_one(study, Study::Campbell, &|model| settings::campbell(model, max_speed.as_ref(), *modes))
-        }
-        Command::Critical { study, max_speed, orders } => {
-            run_one(study, Study::Critical, &|model| settings::critical(model, max_speed.as_ref(), orders))
-        }
-        Command::CriticalMap(args) => {
-            run_one(&args.study, Study::CriticalMap, &|model| settings::critical_map(model, args))
-        }
-        Command::Torsional(args) => {
-            run_one(&args.study, Study::Torsional, &|model| settings::torsional(model, args))
-        }
-        Command::Frf { study, speed, max_frequency, quantity, test } => {
-            let settings = |model: &Model| {
-                settings::frf(model, speed.as_ref(), max_frequency.as_ref(), quantity.as_ref())
-            };
-            noisy_frf::check(test)?;
-            let outcome = run_one(study, Study::Frf, &settings)?;
-            noisy_frf::run(study, test, &settings, terminal)?;
-            Ok(outcome)
-        }
-        Command::Unbalance { study, max_speed, speed_range } => run_one(study, Study::Unbalance, &|model| {
-            settings::unbalance(model, max_speed.as_ref(), speed_range.as_ref())
-        }),
-        Command::RunUp { study, step, integrator, sample_rate, motion_rate, cage_phases, checkpoints } => {
-            resumable(study, checkpoints, Study::RunUp, &|model| {
-                let [step, integrator, rate, motion] =
-                    [step, integrator, sample_rate, motion_rate].map(Option::as_ref);
-                settings::run_up(model, step, integrator, rate, motion, *cage_phases)
-            })
-        }
-        Command::Poincare(args) => {
-            let steady = &args.steady;
-            resumable(&steady.study, &steady.checkpoints, Study::Poincare, &|model| {
-                steady_settings::poincare(model, args)
-            })
-        }
-        Command::Lyapunov(args) => resumable(&args.study, &args.checkpoints, Study::Lyapunov, &|model| {
-            steady_settings::lyapunov(model, args)
-        }),
-        Command::Bifurcation(args) => {
-            let steady = &args.steady;
-            resumable(&steady.study, &steady.checkpoints, Study::Bifurcation, &|model| {
-                steady_settings::bifurcation(model, args)
-            })
-        }
         Command::Spectrogram(args) => stored_run::run(args, terminal, Study::Spectrogram),
         Command::Orders(args) => stored_run::run(args, terminal, Study::Orders),
         Command::Bearing(args) => bearing::run(args, terminal),
@@ -220,7 +164,37 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Trend(args) => trend::run(args, terminal),
         Command::Report(args) => report_page::run(args, terminal).map(Outcome::from),
         Command::Export(args) => export::run(args, terminal).map(Outcome::from),
+        Command::Static { .. }
+        | Command::Modal { .. }
+        | Command::Campbell { .. }
+        | Command::Critical { .. }
+        | Command::CriticalMap(_)
+        | Command::Torsional(_)
+        | Command::Frf { .. }
+        | Command::Unbalance { .. }
+        | Command::RunUp { .. }
+        | Command::Poincare(_)
+        | Command::Lyapunov(_)
+        | Command::Bifurcation(_) => {
+            let study = StudyCommand::of(command).expect("each of these runs one study");
+            run_study(&study, command, terminal)
+        }
     }
+}
+
+/// Runs the study of a command.
+fn run_study(study: &StudyCommand, command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
+    let settings = |model: &Model| study.settings(model);
+    let test = match command {
+        Command::Frf { test, .. } => Some(test),
+        _ => None,
+    };
+    test.map_or(Ok(()), noisy_frf::check)?;
+    let outcome = studies_of(study.args, study.checkpoints, terminal, Some(study.study), &settings)?;
+    if let Some(test) = test {
+        noisy_frf::run(study.args, test, &settings, terminal)?;
+    }
+    Ok(outcome)
 }
 
 /// Runs one study, or all studies of the file.

@@ -7,11 +7,14 @@ use super::studies::{Job, Study};
 use super::terminal::Terminal;
 use miette::Severity;
 use rotordyn::model::{Diagnostic, Loaded};
+use rotordyn::results::Results;
+use rotordyn::study::Machine;
+use rotordyn::warning::Warning;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// Result of a command: JSON document and failed studies.
-pub(super) struct Outcome {
+pub(crate) struct Outcome {
     pub(super) document: Value,
     pub(super) failures: Vec<(&'static str, Failure)>,
 }
@@ -73,16 +76,26 @@ pub(super) fn finish(
 
 /// Warnings of the studies and their results.
 pub(super) fn collect_warnings(job: &mut Job, studies: &[Study]) {
-    let mut speeds: Vec<f64> = studies.iter().flat_map(|study| study.speeds(&job.machine.model)).collect();
+    let found = std::mem::take(&mut job.warnings);
+    add_warnings(&job.machine, &mut job.results, studies, found);
+}
+
+/// Adds warnings to those of the results, and those of the studies and of what they found; each once.
+pub(crate) fn add_warnings(
+    machine: &Machine,
+    results: &mut Results,
+    studies: &[Study],
+    mut found: Vec<Warning>,
+) {
+    let mut speeds: Vec<f64> = studies.iter().flat_map(|study| study.speeds(&machine.model)).collect();
     // A study without speeds of its own, such as a run under torque, is at least one at standstill.
     if speeds.is_empty() && !studies.is_empty() {
         speeds.push(0.0);
     }
-    let mut found = std::mem::take(&mut job.warnings);
-    found.extend(job.machine.warnings(&job.results, &speeds));
+    found.extend(machine.warnings(results, &speeds));
     for warning in found {
-        if !job.results.warnings.contains(&warning) {
-            job.results.warnings.push(warning);
+        if !results.warnings.contains(&warning) {
+            results.warnings.push(warning);
         }
     }
 }

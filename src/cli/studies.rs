@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use rotordyn::analysis::ball_inertia::InertiaUse;
 use rotordyn::io::spill::Spill;
 use rotordyn::model::study::Studies;
 use rotordyn::model::{Drive, Model};
@@ -102,6 +103,82 @@ impl Study {
             Self::Torsional | Self::Spectrogram | Self::Orders | Self::Bearing => None,
         };
         found.unwrap_or_default()
+    }
+
+    /// Whether it computes from the equations linearised about an equilibrium, or that equilibrium, in a short time.
+    pub fn is_linear(self) -> bool {
+        use Study::{Campbell, Critical, CriticalMap, Frf, Modal, Static, Torsional, Unbalance};
+        matches!(self, Static | Modal | Campbell | Critical | CriticalMap | Torsional | Frf | Unbalance)
+    }
+
+    /// Computes a linear study with the settings of the model; nothing without them.
+    ///
+    /// # Errors
+    /// Those of the study.
+    pub fn compute(self, machine: &Machine, results: &mut Results) -> Result<(), Failure> {
+        let studies = &machine.model.studies;
+        match self {
+            Self::Static => {
+                if let Some(settings) = &studies.equilibrium {
+                    results.equilibrium = Some(machine.equilibrium(settings)?);
+                }
+            }
+            Self::Modal => {
+                if let Some(settings) = &studies.modal {
+                    results.modal = machine.modal(settings)?;
+                }
+            }
+            Self::Campbell => {
+                if let Some(settings) = &studies.campbell {
+                    results.campbell = Some(machine.campbell(settings)?);
+                }
+            }
+            Self::Critical => {
+                if let Some(settings) = &studies.critical {
+                    results.critical = Some(machine.critical(settings)?);
+                }
+            }
+            Self::CriticalMap => {
+                if let Some(settings) = &studies.critical_map {
+                    results.critical_map = Some(machine.critical_map(settings)?);
+                }
+            }
+            Self::Torsional => {
+                if let Some(settings) = &studies.torsional {
+                    results.torsional = Some(machine.torsional(settings)?);
+                }
+            }
+            Self::Frf => {
+                if let Some(settings) = &studies.frf {
+                    results.frf = Some(machine.frf(settings)?);
+                }
+            }
+            Self::Unbalance => {
+                if let Some(settings) = &studies.unbalance {
+                    results.unbalance = Some(machine.unbalance(settings)?);
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// States in the results which ball inertia the bearings have in it; `speeds` \[rad/s\].
+    pub fn state_ball_inertia<'r>(
+        self,
+        machine: &Machine,
+        mut speeds: Vec<f64>,
+        results: &'r mut Results,
+    ) -> &'r [InertiaUse] {
+        if self == Self::RunUp {
+            speeds.push(machine.top_speed_of_run());
+        }
+        let used = if speeds.is_empty() { Vec::new() } else { machine.ball_inertia(&speeds) };
+        if used.is_empty() {
+            return &[];
+        }
+        results.ball_inertia.push((self.name().into(), used));
+        results.ball_inertia.last().map_or(&[], |(_, used)| used)
     }
 
     /// Whether the model file contains it.
@@ -252,69 +329,10 @@ impl<'a> Job<'a> {
         let studies = &machine.model.studies;
         let spinner = terminal.spinner(study.name());
         match study {
-            Study::Static => {
-                if let Some(settings) = &studies.equilibrium {
-                    let found = machine.equilibrium(settings)?;
-                    spinner.finish_and_clear();
-                    tables::equilibrium(terminal, &found);
-                    self.results.equilibrium = Some(found);
-                }
-            }
-            Study::Modal => {
-                if let Some(settings) = &studies.modal {
-                    let found = machine.modal(settings)?;
-                    spinner.finish_and_clear();
-                    tables::modes(terminal, &found, &machine.model);
-                    self.results.modal = found;
-                }
-            }
-            Study::Campbell => {
-                if let Some(settings) = &studies.campbell {
-                    let found = machine.campbell(settings)?;
-                    spinner.finish_and_clear();
-                    tables::campbell(terminal, &found);
-                    self.results.campbell = Some(found);
-                }
-            }
-            Study::Critical => {
-                if let Some(settings) = &studies.critical {
-                    let found = machine.critical(settings)?;
-                    spinner.finish_and_clear();
-                    tables::critical(terminal, &found);
-                    self.results.critical = Some(found);
-                }
-            }
-            Study::CriticalMap => {
-                if let Some(settings) = &studies.critical_map {
-                    let found = machine.critical_map(settings)?;
-                    spinner.finish_and_clear();
-                    rotor_tables::critical_map(terminal, &found);
-                    self.results.critical_map = Some(found);
-                }
-            }
-            Study::Torsional => {
-                if let Some(settings) = &studies.torsional {
-                    let found = machine.torsional(settings)?;
-                    spinner.finish_and_clear();
-                    rotor_tables::torsional(terminal, &found);
-                    self.results.torsional = Some(found);
-                }
-            }
-            Study::Frf => {
-                if let Some(settings) = &studies.frf {
-                    let found = machine.frf(settings)?;
-                    spinner.finish_and_clear();
-                    tables::frf(terminal, &found);
-                    self.results.frf = Some(found);
-                }
-            }
-            Study::Unbalance => {
-                if let Some(settings) = &studies.unbalance {
-                    let found = machine.unbalance(settings)?;
-                    spinner.finish_and_clear();
-                    tables::unbalance(terminal, &found);
-                    self.results.unbalance = Some(found);
-                }
+            linear if linear.is_linear() => {
+                linear.compute(machine, &mut self.results)?;
+                spinner.finish_and_clear();
+                print_linear(terminal, linear, &self.results, &machine.model);
             }
             Study::RunUp => {
                 spinner.finish_and_clear();
@@ -346,7 +364,8 @@ impl<'a> Job<'a> {
                     _ => self.bifurcation()?,
                 }
             }
-            Study::Bearing => {
+            // Study::Bearing; the linear ones are above
+            _ => {
                 if let Some(settings) = &studies.bearing {
                     let mut found = machine.static_bearings(settings)?;
                     spinner.finish_and_clear();
@@ -364,19 +383,9 @@ impl<'a> Job<'a> {
     }
 
     /// States the ball inertia of the bearings in a study.
-    fn ball_inertia(&mut self, study: Study, mut speeds: Vec<f64>) {
-        if study == Study::RunUp {
-            speeds.push(self.machine.top_speed_of_run());
-        }
-        if speeds.is_empty() {
-            return;
-        }
-        let used = self.machine.ball_inertia(&speeds);
-        for bearing in &used {
+    fn ball_inertia(&mut self, study: Study, speeds: Vec<f64>) {
+        for bearing in study.state_ball_inertia(&self.machine, speeds, &mut self.results) {
             self.terminal.print(&format!("  {}: {}", study.name(), bearing.sentence()));
-        }
-        if !used.is_empty() {
-            self.results.ball_inertia.push((study.name().into(), used));
         }
     }
 
@@ -392,5 +401,25 @@ impl<'a> Job<'a> {
                 used.compared = reached.compared;
             }
         }
+    }
+}
+
+/// Prints the tables of a linear study.
+fn print_linear(terminal: &Terminal, study: Study, results: &Results, model: &Model) {
+    match study {
+        Study::Static => results.equilibrium.iter().for_each(|found| tables::equilibrium(terminal, found)),
+        Study::Modal if results.modal.is_empty() => {}
+        Study::Modal => tables::modes(terminal, &results.modal, model),
+        Study::Campbell => results.campbell.iter().for_each(|found| tables::campbell(terminal, found)),
+        Study::Critical => results.critical.iter().for_each(|found| tables::critical(terminal, found)),
+        Study::CriticalMap => {
+            results.critical_map.iter().for_each(|found| rotor_tables::critical_map(terminal, found));
+        }
+        Study::Torsional => {
+            results.torsional.iter().for_each(|found| rotor_tables::torsional(terminal, found));
+        }
+        Study::Frf => results.frf.iter().for_each(|found| tables::frf(terminal, found)),
+        Study::Unbalance => results.unbalance.iter().for_each(|found| tables::unbalance(terminal, found)),
+        _ => {}
     }
 }

@@ -29,7 +29,7 @@ const LAYERS: [(&str, &[&[&str]]); 3] = [
 ];
 
 /// Foreign crates and the files that may use them.
-const OWNERS: [(&[&str], &[&str]); 13] = [
+const OWNERS: [(&[&str], &[&str]); 15] = [
     (&["faer"], &["rotordyn-linalg/"]),
     (&["rapier3d", "rapier3d_f64"], &["rotordyn-core/geometry/rapier"]),
     (&["parry3d", "parry3d_f64"], &["rotordyn-core/geometry/parry"]),
@@ -41,7 +41,9 @@ const OWNERS: [(&[&str], &[&str]); 13] = [
     (&["hound"], &["rotordyn-io/wav"]),
     (&["resvg", "usvg", "tiny_skia", "png"], &["rotordyn-plot/"]),
     (&["rustix"], &["cli/system"]),
-    (&["clap", "miette", "indicatif", "signal_hook", "humantime", "similar"], &["main.rs", "cli/"]),
+    (&["clap", "miette"], &["main.rs", "cli/", "rotordyn-python/"]),
+    (&["indicatif", "signal_hook", "humantime", "similar"], &["main.rs", "cli/"]),
+    (&["pyo3", "numpy"], &["rotordyn-python/"]),
     (&["siphasher"], &["rotordyn-io/run_identity"]),
 ];
 
@@ -67,7 +69,10 @@ impl Source {
 
 fn sources() -> Vec<Source> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut roots = vec![(String::new(), root.join("src"))];
+    let mut roots = vec![
+        (String::new(), root.join("src")),
+        ("rotordyn-python/".into(), root.join("python/src")),
+    ];
     for entry in fs::read_dir(root.join("crates")).unwrap() {
         let folder = entry.unwrap().path();
         roots.push((format!("{}/", folder.file_name().unwrap().to_str().unwrap()), folder.join("src")));

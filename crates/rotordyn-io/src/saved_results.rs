@@ -38,13 +38,19 @@ pub fn save<T: Serialize>(path: impl AsRef<Path>, result: &T) -> Result<(), Erro
         .map_err(Error::of_file("write", path))
 }
 
-/// A value as MessagePack.
-pub(crate) fn to_bytes<T: Serialize>(value: &T) -> Result<Vec<u8>, rmp_serde::encode::Error> {
-    rmp_serde::to_vec_named(value)
+/// A value as MessagePack, without the header of a file.
+///
+/// # Errors
+/// A value that has no such form.
+pub fn to_bytes<T: Serialize>(value: &T) -> Result<Vec<u8>, String> {
+    rmp_serde::to_vec_named(value).map_err(|error| error.to_string())
 }
 
-/// The value of [`to_bytes`]; else the place in it and the reason.
-pub(crate) fn from_bytes<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
+/// The value of [`to_bytes`].
+///
+/// # Errors
+/// Bytes of another value: the place in it and the reason.
+pub fn from_bytes<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
     let mut from = rmp_serde::Deserializer::from_read_ref(bytes);
     serde_path_to_error::deserialize(&mut from)
         .map_err(|error| format!("{}: {}", error.path(), error.inner()))

@@ -8,6 +8,7 @@ pub mod keys;
 pub mod load;
 pub mod parameter_paths;
 pub mod schema;
+mod written_out;
 
 pub use build::catalogue;
 pub use file::renamed::renamed_path;
@@ -17,3 +18,4 @@ pub use load::{
     load_with, variants,
 };
 pub use rotordyn_core::model::*;
+pub use written_out::written_out;

@@ -142,6 +142,16 @@ impl Figure {
         Ok(self.page()?.finish())
     }
 
+    /// As [`Self::svg`], with the warnings of the results below it.
+    ///
+    /// # Errors
+    /// As [`Self::svg`].
+    pub fn svg_with_warnings(&self, warnings: &[Warning]) -> Result<String, SeriesError> {
+        let mut page = self.page()?;
+        footnote::add(&mut page, warnings);
+        Ok(page.finish())
+    }
+
     fn page(&self) -> Result<svg::Svg, SeriesError> {
         Ok(match self {
             Figure::Campbell(data) => campbell::draw(data),
@@ -191,9 +201,7 @@ pub fn write_of_run(
     stem: &Path,
     identity: Option<&str>,
 ) -> Result<(), FigureError> {
-    let mut page = figure.page()?;
-    footnote::add(&mut page, warnings);
-    let svg = page.finish();
+    let svg = figure.svg_with_warnings(warnings)?;
     let name = |extension: &str| {
         // Not `with_extension`: a stem such as "mode_27.1_hz" contains a dot.
         let mut name = stem.as_os_str().to_owned();

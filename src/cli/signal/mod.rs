@@ -6,7 +6,7 @@ pub mod channel;
 mod compare_records;
 pub mod input;
 pub mod line_tables;
-mod orders;
+pub mod orders;
 pub mod record_speed;
 pub mod settings;
 pub mod shaft_source;

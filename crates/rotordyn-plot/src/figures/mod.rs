@@ -215,10 +215,15 @@ pub fn draw_signal<'a>(
     title: &str,
     folder: impl Into<FigureFolder<'a>>,
 ) -> Result<Vec<PathBuf>, FigureError> {
+    write_plain(of_signal(found, title), folder)
+}
+
+/// All figures of analysed records; `title` is the name of their file.
+pub fn of_signal(found: &[SignalResult], title: &str) -> Vec<Named> {
     let mut figures: Vec<Named> = found.iter().flat_map(|r| signal::figures(r, title)).collect();
     let sections: Vec<Section> = found.iter().map(SignalResult::section).collect();
     figures.extend(drawn::figures(&sections, title));
-    write_plain(figures, folder)
+    figures
 }
 
 /// Draws several records of one machine over their axis; `title`: what they are of. Returns the SVG file.

@@ -1,0 +1,103 @@
+"""Python values as text of the model file, which its reader validates."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Mapping
+
+from .errors import InputError
+
+__all__: list[str] = []
+
+
+def toml(value: Any) -> str:
+    """A value in TOML: text, number, truth value, list, dictionary, NumPy scalar or array."""
+    if hasattr(value, "tolist") and hasattr(value, "dtype"):
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return _quoted(value)
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        if math.isnan(value):
+            return "nan"
+        return repr(value)
+    if isinstance(value, Mapping):
+        pairs = (f"{_quoted(_name(key))} = {toml(inner)}" for key, inner in value.items())
+        return "{ " + ", ".join(pairs) + " }"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(toml(item) for item in value) + "]"
+    raise InputError(
+        f"a value of a model is a text with its unit, a number, True or False, a list or a dictionary, not {value!r} "
+        f"({type(value).__name__})"
+    )
+
+
+def words(value: Any) -> str:
+    """A value as a flag of the command takes it: texts of a list are separated by commas."""
+    if hasattr(value, "tolist") and hasattr(value, "dtype"):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return ",".join(words(item) for item in value)
+    if isinstance(value, bool) or not isinstance(value, (str, int, float)):
+        raise InputError(f'expected a text with its unit, such as "1200 rpm", or a number, not {value!r}')
+    text = value if isinstance(value, str) else repr(value)
+    return _checked(text)
+
+
+#: Flags without a value.
+SWITCHES = ("fixed_cage_angle",)
+
+
+def flags(given: Mapping[str, Any]) -> list[str]:
+    """Arguments that are not None as flags: ``max_speed="6000 rpm"`` is ``--max-speed=6000 rpm``."""
+    out = []
+    for name, value in given.items():
+        flag = "--" + name.replace("_", "-")
+        if value is None:
+            continue
+        if name not in SWITCHES:
+            out.append(f"{flag}={words(value)}")
+        elif not isinstance(value, bool):
+            raise InputError(f"{name} is True or False, not {value!r}")
+        elif value:
+            out.append(flag)
+    return out
+
+
+def path(text: Any) -> str:
+    """A path of a value, such as ``bearing.B.radial_clearance``."""
+    if not isinstance(text, str):
+        raise InputError(f'the path of a value is a text such as "bearing.B.radial_clearance", not {text!r}')
+    if "=" in text or "\n" in text:
+        raise InputError(f'{text!r} is not the path of a value; such as "bearing.B.radial_clearance"')
+    return _checked(text)
+
+
+def _name(key: Any) -> str:
+    if not isinstance(key, str):
+        raise InputError(f"keys of a model are texts, not {key!r}")
+    return key
+
+
+def _quoted(text: str) -> str:
+    out = []
+    for char in _checked(text):
+        if char in '"\\':
+            out.append("\\" + char)
+        elif ord(char) < 0x20 or ord(char) == 0x7F:
+            out.append(f"\\u{ord(char):04x}")
+        else:
+            out.append(char)
+    return '"' + "".join(out) + '"'
+
+
+def _checked(text: str) -> str:
+    """The text, if it is Unicode that can be written as UTF-8."""
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise InputError(f"{text!r} is not valid Unicode text") from None
+    return text

@@ -1,0 +1,101 @@
+//! Failures as exceptions of `rotordyn.errors`, with the text that the command prints and the problems as data.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use miette::Severity;
+use pyo3::prelude::*;
+use pyo3::types::PyType;
+use rotordyn::model::ModelErrors;
+
+use crate::cli::diagnostics::render;
+use crate::cli::failure::Failure;
+
+/// The prefix of a change by the user in the sources of the messages.
+const SET: &str = "--set ";
+
+/// Why something was not done.
+pub enum Stop {
+    Failure(Failure),
+    /// A panic: a bug of the program.
+    Bug(String),
+    /// An exception of Python, such as that of a progress function.
+    Python(PyErr),
+}
+
+impl<E: Into<Failure>> From<E> for Stop {
+    fn from(error: E) -> Self {
+        Self::Failure(error.into())
+    }
+}
+
+/// Computes without the interpreter's lock; a panic becomes an error.
+pub fn detached<T: Send>(
+    py: Python<'_>,
+    compute: impl FnOnce() -> Result<T, Stop> + Send,
+) -> Result<T, PyErr> {
+    let guarded = || {
+        catch_unwind(AssertUnwindSafe(compute)).unwrap_or_else(|bug| {
+            let text = bug.downcast_ref::<String>().map(String::as_str);
+            let text = text.or_else(|| bug.downcast_ref::<&str>().copied());
+            Err(Stop::Bug(text.unwrap_or("a panic").into()))
+        })
+    };
+    py.detach(guarded).map_err(|stop| to_python(py, stop))
+}
+
+/// The exception of a failure.
+pub fn to_python(py: Python<'_>, stop: Stop) -> PyErr {
+    let (class, text, problems) = match stop {
+        Stop::Python(error) => return error,
+        Stop::Bug(text) => {
+            let advice = "please report this bug, with the model file and the call";
+            ("InternalError", format!("{text}; {advice}"), String::from("[]"))
+        }
+        Stop::Failure(failure) => {
+            let failure = match failure {
+                Failure::Model(errors) => Failure::Model(in_words_of_python(errors)),
+                other => other,
+            };
+            let class = match failure.exit_code() {
+                2 => "InputError",
+                4 => "FileError",
+                _ => "PhysicsError",
+            };
+            let text = match &failure {
+                Failure::Model(found) => {
+                    let shown = render(&found.diagnostics, &found.sources, Severity::Error, false);
+                    format!("{failure}\n{shown}", failure = failure.message())
+                }
+                _ => failure.message(),
+            };
+            (class, text.trim_end().to_string(), failure.to_json()["problems"].to_string())
+        }
+    };
+    let raise = || -> PyResult<PyErr> {
+        let class = py.import("rotordyn.errors")?.getattr(class)?.cast_into::<PyType>()?;
+        Ok(PyErr::from_value(class.call1((text, problems))?))
+    };
+    raise().unwrap_or_else(|error| error)
+}
+
+/// Messages about changes and arguments without the spelling of the command line: `--set PATH=VALUE` becomes `PATH=VALUE`,
+/// `--max-speed "6000"` becomes `max_speed="6000"`.
+pub fn in_words_of_python(mut errors: ModelErrors) -> ModelErrors {
+    for (k, source) in errors.sources.iter_mut().enumerate().skip(1) {
+        let cut = if let Some(rest) = source.text.strip_prefix(SET) {
+            source.text = rest.to_string();
+            source.name = "changed value".into();
+            SET.len()
+        } else if let Some((flag, value)) = source.text.strip_prefix("--").and_then(|t| t.split_once(' ')) {
+            source.text = format!("{}={value}", flag.replace('-', "_"));
+            source.name = "argument".into();
+            "--".len()
+        } else {
+            continue;
+        };
+        for found in errors.diagnostics.iter_mut().filter(|found| found.source == k) {
+            found.span = found.span.start.saturating_sub(cut)..found.span.end.saturating_sub(cut);
+        }
+    }
+    errors
+}
