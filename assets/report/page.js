@@ -4,6 +4,8 @@
 /** Title, condition and content of every section with charts; content returns elements. */
 function sections(results, head) {
   const viewer = shapeViewer(results, head.machine);
+  const further = head.figures.filter(({ name }) => !isSheet(name));
+  results.sheets = Object.fromEntries(head.figures.filter(({ name }) => isSheet(name)).map(({ name, svg }) => [name, svg]));
   const has = (path) => results.set(path)?.values?.length > 0;
   return [
     ["campbell", "Campbell diagram", has("campbell/frequency"), () => [...campbellView(results, viewer), ...criticalView(results)]],
@@ -13,9 +15,15 @@ function sections(results, head) {
     ["unbalance", "Unbalance response", has("unbalance/rpm"), () => unbalanceView(results)],
     ["spectra", "Run-up: spectra and orders", results.items("spectra", ...MAPS).length > 0, () => spectraView(results)],
     ["history", "Run-up: time histories", head.history?.channels.length > 0, () => historyView(results, head.history)],
-    ["figures", "Further figures", head.figures.length > 0, () => head.figures.map(staticFigure)],
+    ...(head.bearings ?? []).map((entry, k) => [`bearing-${k}`, `Bearing ${entry.name}`, true, () => bearingView(results, entry)]),
+    ["figures", "Further figures", further.length > 0, () => further.map(staticFigure)],
     ["results", "All results", true, () => allResults(results)],
   ];
+}
+
+/** Whether a figure belongs to the page of a bearing. */
+function isSheet(name) {
+  return /^bearing_.*_sheet$/.test(name);
 }
 
 /** Natural frequencies of the modal study, a table for each speed. */

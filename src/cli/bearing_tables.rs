@@ -2,7 +2,7 @@
 
 use super::ball_motion_tables::ball_number;
 use rotordyn::bearing::life::hours;
-use rotordyn::bearing::{BallInertia, Preload};
+use rotordyn::bearing::{BallInertia, LimitCheck, Preload};
 use rotordyn::model::study::{DOF_NAMES, SweepVariable};
 use rotordyn::results::{BearingPoint, BearingResult, BearingSweepResult};
 
@@ -89,6 +89,7 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
     ball_motion::print(terminal, found);
     frequencies(terminal, found);
     life(terminal, found);
+    limits(terminal, found);
     let speed_dependent = found.bearing.depends_on_speed() || found.bearing.lubricant().is_some();
     if !speed_dependent && !found.sweeps.iter().any(|s| s.of == SweepVariable::Speed) {
         terminal
@@ -250,6 +251,29 @@ fn life(terminal: &Terminal, found: &BearingResult) {
         }
         terminal.print(&line);
     }
+}
+
+/// The limits that apply, exceeded or not; what each says is in the results file and on the report page.
+fn limits(terminal: &Terminal, found: &BearingResult) {
+    let row = |check: &LimitCheck| {
+        let (unit, factor) = match check.unit.as_str() {
+            "Pa" => ("GPa", 1e-9),
+            "m" => ("mm", 1e3),
+            "rad" => ("deg", 1f64.to_degrees()),
+            "1" => ("", 1.0),
+            other => (other, 1.0),
+        };
+        let side = if check.is_least { ">=" } else { "<=" };
+        vec![
+            check.quantity.clone(),
+            number(factor * check.value, 4),
+            format!("{side} {}", number(factor * check.limit, 4)),
+            unit.to_string(),
+            check.verdict.name().to_string(),
+        ]
+    };
+    let rows: Vec<Vec<String>> = found.limits.iter().map(row).collect();
+    terminal.table("Limits", &["", "value", "limit", "unit", ""], &rows);
 }
 
 fn sweep_table(terminal: &Terminal, found: &BearingResult, sweep: &BearingSweepResult) {

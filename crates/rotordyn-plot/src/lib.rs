@@ -54,6 +54,7 @@ mod panel_row;
 mod panels;
 mod phase_plane;
 mod polar;
+mod sheet;
 mod spectrogram;
 mod stabilisation;
 mod stack;
@@ -93,6 +94,7 @@ pub use orbit::{Orbit, Orbits};
 pub use order_map::OrderMap;
 pub use phase_plane::{PhasePlane, PhasePlanes};
 pub use polar::{Polar, PolarCurve};
+pub use sheet::Sheet;
 pub use spectrogram::{Spectrogram, SpectrogramPanel};
 pub use stabilisation::{PoleStability, Stabilisation};
 pub use stack::{Stack, StackPanel};
@@ -114,6 +116,7 @@ pub enum Figure {
     ModeShapes(ModeShapes),
     Bode(Bode),
     Polar(Polar),
+    Sheet(Sheet),
     Orbits(Orbits),
     PhasePlanes(PhasePlanes),
     Bifurcation(Bifurcation),
@@ -162,6 +165,7 @@ impl Figure {
             Figure::ModeShapes(data) => mode_shape::draw(data),
             Figure::Bode(data) => bode::draw(data),
             Figure::Polar(data) => polar::draw(data),
+            Figure::Sheet(data) => sheet::draw(data)?,
             Figure::Orbits(data) => orbit::draw(data),
             Figure::PhasePlanes(data) => phase_plane::draw(data),
             Figure::Bifurcation(data) => bifurcation::draw(data),

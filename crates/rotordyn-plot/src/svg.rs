@@ -294,6 +294,22 @@ impl Svg {
         );
     }
 
+    /// Puts another page on this one, its upper left corner at a point.
+    pub fn place(&mut self, page: Svg, [x, y]: Point) {
+        // Clips have names of their own in one document.
+        let first = self.clips;
+        self.clips += page.clips;
+        let mut body = page.body;
+        for id in (0..page.clips).rev() {
+            body = body
+                .replace(&format!("<clipPath id=\"c{id}\""), &format!("<clipPath id=\"c{}\"", first + id));
+            body = body.replace(&format!("\"url(#c{id})\""), &format!("\"url(#c{})\"", first + id));
+        }
+        let (x, y) = (number(x), number(y));
+        // Writing to a text cannot fail.
+        let _ = write!(self.body, "<g transform=\"translate({x} {y})\">\n{body}</g>\n");
+    }
+
     pub fn unclip(&mut self) {
         self.body.push_str("</g>\n");
     }

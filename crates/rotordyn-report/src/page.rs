@@ -3,7 +3,7 @@
 use super::arrays::Arrays;
 use super::captions::caption;
 use super::markup::escape;
-use super::{history, machine_view, model_table, overview, stored, summary};
+use super::{bearings, history, machine_view, model_table, overview, stored, summary};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use rotordyn_core::study::Machine;
@@ -17,7 +17,7 @@ use std::path::Path;
 const TEMPLATE: &str = include_str!("../../../assets/report/page.html");
 const STYLE: &str = include_str!("../../../assets/report/style.css");
 /// Libraries, then the page's own scripts in the order of their use.
-const SCRIPTS: [&str; 10] = [
+const SCRIPTS: [&str; 12] = [
     include_str!("../../../assets/report/vendor/plotly-cartesian.min.js"),
     include_str!("../../../assets/report/vendor/three.min.js"),
     include_str!("../../../assets/report/data.js"),
@@ -27,6 +27,8 @@ const SCRIPTS: [&str; 10] = [
     include_str!("../../../assets/report/shapes.js"),
     include_str!("../../../assets/report/responses.js"),
     include_str!("../../../assets/report/run_up.js"),
+    include_str!("../../../assets/report/bearings.js"),
+    include_str!("../../../assets/report/bearing_charts.js"),
     include_str!("../../../assets/report/page.js"),
 ];
 
@@ -84,11 +86,13 @@ pub fn html(report: &Report) -> Result<String, ReportError> {
     if !tree.left_out.is_empty() {
         notes.push(format!("Too large for this page, see results.h5: {}", tree.left_out.join(", ")));
     }
-    let drawn =
-        figures.iter().filter_map(|(name, svg)| Some(json!({ "caption": caption(name)?, "svg": svg })));
+    let drawn = figures
+        .iter()
+        .filter_map(|(name, svg)| Some(json!({ "name": name, "caption": caption(name)?, "svg": svg })));
     let head = json!({
         "results": tree.root,
         "machine": machine.map(|machine| machine_view::view(&machine.model, &mut arrays)),
+        "bearings": bearings::read(reader, machine, &mut arrays)?,
         "history": history::read(reader, &mut arrays)?,
         "figures": drawn.collect::<Vec<_>>(),
     });

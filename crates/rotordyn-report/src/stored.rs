@@ -88,13 +88,13 @@ impl Walk<'_> {
 }
 
 /// The members of an object added to another.
-fn extend(set: &mut Value, place: Value) {
+pub(crate) fn extend(set: &mut Value, place: Value) {
     if let (Value::Object(set), Value::Object(place)) = (set, place) {
         set.extend(place);
     }
 }
 
-fn attribute_value(value: Attribute) -> Value {
+pub(crate) fn attribute_value(value: Attribute) -> Value {
     match value {
         Attribute::Text(text) => json!(text),
         Attribute::Unread(why) => json!(format!("not read: {why}")),

@@ -179,9 +179,9 @@ fn bearing_loads(reader: &dyn Reader) -> Result<Vec<Line>, Error> {
 /// Rating lives of the bearing study.
 fn bearing_lives(reader: &dyn Reader) -> Result<Vec<Line>, Error> {
     let mut out = Vec::new();
-    let has_life = |path: &str| Ok(attribute(reader, path, "basic_life")?.is_some());
+    let has_life = |path: &str| reader.contains(&format!("{path}/operating/basic_life"));
     for name in items::groups(reader, "/bearings", &has_life)?.into_iter().take(LISTED) {
-        let life = attribute(reader, &format!("/bearings/{name}"), "basic_life")?;
+        let life = numbers(reader, &format!("/bearings/{name}/operating/basic_life"))?.first().copied();
         if let Some(life) = life.filter(|life| life.is_finite()) {
             let value = format!("L10 = {} million revolutions", significant(life));
             out.push(line(format!("Rating life of bearing {name}"), value, String::new()));

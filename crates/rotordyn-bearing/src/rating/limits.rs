@@ -9,13 +9,13 @@ use std::f64::consts::PI;
 use std::fmt::{self, Display, Formatter};
 
 /// Film ratio λ below which asperities touch.
-const LOWEST_FILM_RATIO: f64 = 1.0;
+pub(super) const LOWEST_FILM_RATIO: f64 = 1.0;
 /// Share of the nominal contact angle below which a single row has lost it.
-const LOST_ANGLE: f64 = 0.5;
+pub(super) const LOST_ANGLE: f64 = 0.5;
 /// Radial minimum load factor k_r of deep groove ball bearings; makers give 0.015 (series 618) to 0.03 (series 63).
 const RADIAL_FACTOR: f64 = 0.025;
 /// Traction coefficient of an oil-lubricated contact.
-const TRACTION: f64 = 0.07;
+pub(super) const TRACTION: f64 = 0.07;
 
 /// Share of the largest contact load below which the ellipse of a contact does not count: balls outside the loaded zone
 /// that centrifugal force presses against the inner race at a steep angle.
@@ -86,25 +86,35 @@ impl BearingLoad<'_> {
         .collect()
     }
 
-    fn loads(&self) -> impl Iterator<Item = f64> {
+    pub(super) fn loads(&self) -> impl Iterator<Item = f64> {
         self.balls.iter().map(|ball| ball.load).filter(|load| *load > 0.0)
     }
 
-    fn fitted_law(&self, loaded: usize) -> Option<ExceededLimit> {
+    /// Number of loaded balls outside the range of a fitted law, and that range \[N\].
+    pub(super) fn outside_fitted_law(&self) -> Option<(usize, [f64; 2])> {
         let ContactLaw::PowerLaw(law) = &self.bearing.contact else { return None };
         let range = law.range;
-        let outside = self.loads().filter(|load| *load < range[0] || *load > range[1]).count();
+        Some((self.loads().filter(|load| *load < range[0] || *load > range[1]).count(), range))
+    }
+
+    fn fitted_law(&self, loaded: usize) -> Option<ExceededLimit> {
+        let (outside, range) = self.outside_fitted_law()?;
         (outside > 0).then_some(ExceededLimit::FittedLaw { outside, loaded, range })
+    }
+
+    /// Race and value of the largest contact pressure \[Pa\].
+    pub(super) fn largest_pressure(&self) -> Option<(Race, f64)> {
+        let contacts = self.bearing.hertz();
+        let pressures = self.balls.iter().flat_map(|ball| {
+            [Race::Inner, Race::Outer].into_iter().zip(ball.patches(&contacts).map(|p| p.maximum_pressure))
+        });
+        pressures.max_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
     /// p₀ > 4.2 GPa in a contact, or s₀ = C₀/P₀ < 1: the balls' own loads and the rating of the bearing differ where its
     /// load distribution, grooves or stated C₀ differ from those of ISO 76.
     fn static_load(&self) -> Option<ExceededLimit> {
-        let contacts = self.bearing.hertz();
-        let pressures = self.balls.iter().flat_map(|ball| {
-            [Race::Inner, Race::Outer].into_iter().zip(ball.patches(&contacts).map(|p| p.maximum_pressure))
-        });
-        let (race, pressure) = pressures.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        let (race, pressure) = self.largest_pressure()?;
         let (load, rating) = (self.static_load, self.static_rating);
         (pressure > STATIC_CONTACT_STRESS || load > rating).then_some(ExceededLimit::StaticLoad {
             pressure,
@@ -119,15 +129,23 @@ impl BearingLoad<'_> {
         (film < LOWEST_FILM_RATIO * roughness).then_some(ExceededLimit::Film { film, roughness })
     }
 
+    /// Whether it is a single row with a contact angle, whose outer race has one shoulder.
+    fn is_angled(&self) -> bool {
+        self.bearing.geometry.contact_angle > 0.0 && self.bearing.duplex.is_none()
+    }
+
+    /// Mean inner contact angle by load of a single row with a contact angle \[rad\].
+    pub(super) fn mean_contact_angle(&self) -> Option<f64> {
+        let balls = self.balls.iter().filter(|ball| ball.load > 0.0);
+        let mean = || {
+            balls.map(|ball| ball.load * ball.contact_angle.abs()).sum::<f64>() / self.loads().sum::<f64>()
+        };
+        self.is_angled().then(mean)
+    }
+
     /// Mean inner contact angle by load below half the nominal one.
     fn lost_contact_angle(&self) -> Option<ExceededLimit> {
-        let nominal = self.bearing.geometry.contact_angle;
-        if nominal == 0.0 || self.bearing.duplex.is_some() {
-            return None;
-        }
-        let whole: f64 = self.loads().sum();
-        let balls = self.balls.iter().filter(|ball| ball.load > 0.0);
-        let mean = balls.map(|ball| ball.load * ball.contact_angle.abs()).sum::<f64>() / whole;
+        let (nominal, mean) = (self.bearing.geometry.contact_angle, self.mean_contact_angle()?);
         let displacement = self.axial_displacement;
         (mean < LOST_ANGLE * nominal).then_some(ExceededLimit::LostContactAngle {
             nominal,
@@ -136,30 +154,37 @@ impl BearingLoad<'_> {
         })
     }
 
-    fn open_side(&self) -> Option<ExceededLimit> {
-        let g = &self.bearing.geometry;
+    /// Number of balls pressed onto the open side of a single row with a contact angle.
+    pub(super) fn balls_on_open_side(&self) -> Option<usize> {
+        let thrust = self.bearing.geometry.thrust_direction;
         let on_open_side =
-            |ball: &&BallLoad| ball.outer_load > 0.0 && ball.outer_contact_angle * g.thrust_direction < 0.0;
-        let angled = g.contact_angle > 0.0 && self.bearing.duplex.is_none();
-        let balls = if angled { self.balls.iter().filter(on_open_side).count() } else { 0 };
+            |ball: &&BallLoad| ball.outer_load > 0.0 && ball.outer_contact_angle * thrust < 0.0;
+        self.is_angled().then(|| self.balls.iter().filter(on_open_side).count())
+    }
+
+    fn open_side(&self) -> Option<ExceededLimit> {
+        let balls = self.balls_on_open_side()?;
         (balls > 0).then_some(ExceededLimit::OpenSide { balls })
     }
 
-    fn minimum_load(&self) -> Option<ExceededLimit> {
-        let g = &self.bearing.geometry;
+    /// Minimum load of a turning bearing with unloaded balls \[N\].
+    pub(super) fn needed_load(&self) -> Option<f64> {
         // With all balls loaded none slows down outside a loaded zone; gyroscopic sliding remains.
         if self.speed == 0.0 || self.balls.iter().all(|ball| ball.load > 0.0) {
             return None;
         }
         let viscosity = self.bearing.lubricant().map(|oil| oil.viscosity / oil.density);
-        let minimum = minimum_load(g.pitch_diameter, self.speed, viscosity);
-        let load = self.equivalent_load;
+        Some(minimum_load(self.bearing.geometry.pitch_diameter, self.speed, viscosity))
+    }
+
+    fn minimum_load(&self) -> Option<ExceededLimit> {
+        let (load, minimum) = (self.equivalent_load, self.needed_load()?);
         (load < minimum).then_some(ExceededLimit::MinimumLoad { load, minimum })
     }
 
     /// μ = Σ 2 M/D / Σ Q_o with M/D = F_c sin α_o/5 on the outer race, over the balls that carry at the inner one: a
     /// lightly loaded ball at the end of the loaded zone may slide for a moment.
-    fn gyroscopic_sliding(&self) -> Option<ExceededLimit> {
+    pub(super) fn gyroscopic_coefficient(&self) -> Option<f64> {
         let g = &self.bearing.geometry;
         if !self.bearing.inertia.has_moment() {
             return None;
@@ -169,14 +194,18 @@ impl BearingLoad<'_> {
         let carrying = || self.balls.iter().filter(|ball| ball.load > 0.0);
         let friction: f64 =
             carrying().map(|ball| 0.4 * centrifugal * ball.outer_contact_angle.sin().abs()).sum();
-        let coefficient = friction / carrying().map(|ball| ball.outer_load).sum::<f64>();
+        Some(friction / carrying().map(|ball| ball.outer_load).sum::<f64>())
+    }
+
+    fn gyroscopic_sliding(&self) -> Option<ExceededLimit> {
+        let coefficient = self.gyroscopic_coefficient()?;
         (coefficient > TRACTION).then_some(ExceededLimit::GyroscopicSliding { coefficient })
     }
 
-    /// The contact with the largest share of its ellipse beyond the shoulder of the groove.
-    fn shoulder(&self) -> Option<ExceededLimit> {
+    /// Contacts with load, with their distance from the shoulder of the groove.
+    pub(super) fn shoulders(&self) -> impl Iterator<Item = (Race, ShoulderMargin)> {
         let largest = self.balls.iter().fold(0.0, |most: f64, ball| most.max(ball.load).max(ball.outer_load));
-        let contacts = self.balls.iter().flat_map(|ball| {
+        let contacts = self.balls.iter().flat_map(move |ball| {
             let margins = shoulder_margin(self.bearing, ball);
             let loads = [ball.load, ball.outer_load];
             [Race::Inner, Race::Outer]
@@ -185,9 +214,13 @@ impl BearingLoad<'_> {
                 .zip(loads)
                 .filter(move |(_, load)| *load > SMALL_LOAD * largest)
         });
-        let worst = contacts
-            .map(|(contact, _)| contact)
-            .max_by(|(_, a), (_, b)| a.fraction_beyond.total_cmp(&b.fraction_beyond))?;
+        contacts.map(|(contact, _)| contact)
+    }
+
+    /// The contact with the largest share of its ellipse beyond the shoulder of the groove.
+    fn shoulder(&self) -> Option<ExceededLimit> {
+        let worst =
+            self.shoulders().max_by(|(_, a), (_, b)| a.fraction_beyond.total_cmp(&b.fraction_beyond))?;
         let (race, ShoulderMargin { ellipse_angle, shoulder_angle, fraction_beyond: share, .. }) = worst;
         (share > 0.0).then_some(ExceededLimit::Shoulder { race, share, ellipse_angle, shoulder_angle })
     }
@@ -204,7 +237,7 @@ pub fn minimum_load(pitch_diameter: f64, speed: f64, viscosity: Option<f64>) -> 
     1e3 * RADIAL_FACTOR * (1e6 * viscosity * rpm / 1e3).powf(2.0 / 3.0) * (10.0 * pitch_diameter).powi(2)
 }
 
-fn race_name(race: Race) -> &'static str {
+pub(super) fn race_name(race: Race) -> &'static str {
     match race {
         Race::Inner => "inner",
         Race::Outer => "outer",

@@ -3,12 +3,14 @@
 pub mod friction;
 pub mod kinematics;
 pub mod life;
+pub mod limit_checks;
 pub mod limits;
 pub mod load_rating;
 pub mod shoulder;
 
 pub use friction::FrictionTorque;
 pub use kinematics::{BallMotion, MountedGeometry};
+pub use limit_checks::{LimitCheck, Verdict};
 pub use load_rating::{
     EquivalentLoad, LARGEST_RADIAL_ANGLE, LoadRating, STANDARD_OSCULATION, STATIC_CONTACT_STRESS,
     equivalent_load, static_equivalent_load, static_factor,

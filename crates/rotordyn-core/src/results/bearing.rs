@@ -10,9 +10,10 @@ use crate::warning::Warning;
 use rotordyn_bearing::contact::Race;
 use rotordyn_bearing::contact::ehl::Solution;
 use rotordyn_bearing::rating::LoadRating;
+use rotordyn_bearing::rating::shoulder::shoulder_angle;
 use rotordyn_bearing::{
-    BallBearing, BallMotion, CharacteristicOrders, FrictionTorque, MountedGeometry, PreloadState,
-    ShoulderMargin,
+    Arrangement, BallBearing, BallMotion, CharacteristicOrders, FrictionTorque, LimitCheck, MountedGeometry,
+    PreloadState, ShoulderMargin,
 };
 use serde::{Deserialize, Serialize};
 
@@ -37,6 +38,8 @@ pub struct BearingResult {
     pub nominal_orders: CharacteristicOrders,
     /// The operating point.
     pub point: BearingPoint,
+    /// The limits that apply at the operating point, exceeded or not.
+    pub limits: Vec<LimitCheck>,
     pub sweeps: Vec<BearingSweepResult>,
     /// EHL solutions of the most heavily loaded contacts, for a bearing with the EHL contact law.
     pub films: Vec<EhlFilm>,
@@ -68,12 +71,14 @@ impl BearingResult {
         let mut out = Document::new()
             .text(in_json("name"), &self.name)
             .text("load_source", &self.load_source)
+            .group("geometry", geometry_document(&self.bearing))
             .group("ball_inertia", inertia)
             .table(in_json("prescribed"), Rows::of(&self.prescribed).flag("", |prescribed| *prescribed))
             .group(named("rating", ""), rating)
             .group(named("preload", ""), preload)
             .group(named("nominal_orders", ""), orders_document(orders))
             .record("operating", BearingPoint::columns(Rows::of([&self.point])))
+            .table("limits", limit_columns(&self.limits))
             .list("sweeps", self.sweeps.iter().map(BearingSweepResult::document))
             .list("films", self.films.iter().map(|film| film.document()))
             .with(in_json("warnings"), Warning::list(&self.warnings));
@@ -100,6 +105,44 @@ impl BearingResult {
         }
         out.and_if(self.bearing.estimated_geometry.as_ref(), |out, how| out.text("estimated_geometry", how))
     }
+}
+
+/// What is written of the internal geometry, as it was understood.
+fn geometry_document(bearing: &BallBearing) -> Document<'_> {
+    let g = &bearing.geometry;
+    let out = Document::new()
+        .integer("balls", g.balls)
+        .number("ball_diameter", "m", g.ball_diameter)
+        .number("pitch_diameter", "m", g.pitch_diameter)
+        .number("inner_groove_radius", "m", g.inner_groove_radius)
+        .number("outer_groove_radius", "m", g.outer_groove_radius)
+        .number("radial_clearance", "m", g.radial_clearance)
+        .number("contact_angle", "rad", g.contact_angle)
+        .number("bore", "m", g.bore)
+        .number("outside_diameter", "m", g.outside_diameter)
+        .number("width", "m", g.width)
+        .number("inner_shoulder_angle", "rad", shoulder_angle(bearing, Race::Inner))
+        .number("outer_shoulder_angle", "rad", shoulder_angle(bearing, Race::Outer));
+    out.and_if(bearing.duplex, |out, pair| {
+        let arrangement = match pair.arrangement {
+            Arrangement::BackToBack => "back to back",
+            Arrangement::FaceToFace => "face to face",
+            Arrangement::Tandem => "tandem",
+        };
+        out.text("arrangement", arrangement).number("row_spacing", "m", pair.spacing)
+    })
+}
+
+/// The limits with their figures, one row each.
+fn limit_columns(limits: &[LimitCheck]) -> Rows<'static, '_, LimitCheck> {
+    Rows::of(limits)
+        .text("quantity", |l| &l.quantity)
+        .number("value", "", |l| l.value)
+        .number("limit", "", |l| l.limit)
+        .text("side", |l| if l.is_least { "at least" } else { "at most" })
+        .text("unit", |l| &l.unit)
+        .text("verdict", |l| l.verdict.name())
+        .text("says", |l| &l.says)
 }
 
 /// What is written of characteristic orders.

@@ -19,13 +19,14 @@ use operating_point::{OperatingPoint, SingleBearingStudy, cage_treatment};
 use rotordyn_bearing::contact::{BallContacts, ContactLaw};
 use rotordyn_bearing::free_ball::FreeBallBearing;
 use rotordyn_bearing::rating::LoadRating;
+use rotordyn_bearing::rating::limit_checks::GREASE_SPEED_PARAMETER;
 use rotordyn_bearing::{BallBearing, Preload, PreloadState, kinematics};
 use std::ops::ControlFlow;
 
 /// Points of a sweep over a default range.
 const SWEEP_POINTS: usize = 41;
 /// Default speed parameter n·d_m (speed times pitch diameter) \[mm/min\]: half the limit for grease.
-const DEFAULT_NDM: f64 = 2.5e5;
+const DEFAULT_NDM: f64 = 0.5 * GREASE_SPEED_PARAMETER;
 
 impl Machine {
     /// Every requested ball bearing, under its load in the machine or the given load; one with free balls also settled under
@@ -171,6 +172,7 @@ impl<'a> SingleBearingStudy<'a> {
         let state = self.solver.solve(&condition, None)?;
         let point = self.point(state);
         let mut warnings = self.warnings(&point);
+        let limits = self.limit_checks(&point);
         let ball_inertia = self.inertia_use(&point);
         warnings.extend(ball_inertia.warning());
         let depends_on_speed = self.bearing.depends_on_speed() || self.bearing.lubricant().is_some();
@@ -198,6 +200,7 @@ impl<'a> SingleBearingStudy<'a> {
             rating: self.rating(),
             nominal_orders: g.characteristic_orders(g.contact_angle),
             point,
+            limits,
             sweeps,
             films,
             free_balls: None,

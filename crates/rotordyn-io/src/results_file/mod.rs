@@ -15,7 +15,7 @@
 //! | `/lyapunov` | attributes: speed, clock, exponent with its standard error; convergence of `exponent` over `time` |
 //! | `/bifurcation/<sweep>` | over `value`: motion, period, settled, residual, decay_factor, transient_periods, exponent; per channel `section` \[value, point\] and extremes |
 //! | `/ball_inertia/<study>/<bearing>` | attributes: stated and used ball inertia; speed, centrifugal_force, largest_contact_load, ratio, limit: why |
-//! | `/bearings/<bearing>` | stand-alone ball bearing: `operating` point and `sweep_<variable>` over `swept_value`; `film_<race>` |
+//! | `/bearings/<bearing>` | stand-alone ball bearing: `geometry`, `operating` point, `limits` with their figures and `sweep_<variable>` over `swept_value`; `film_<race>` |
 //! | `/time`, `/channels` | the run-up; in `results_unfinished.h5` the samples so far, NaN behind them |
 //! | `/motion` | frames of the run for animations: `displacement` \[frame, node, DOF\]; per bearing with free balls `position`, `orientation` (quaternion, scalar first), `angular_velocity`, `ball_forces` (inner, outer, pocket) \[body, frame, component\], the balls before the cage |
 //! | `/run_up` | attributes: size and errors of the reduced model, steps, energy balance; `step_error`, `cage_phases` |
@@ -43,7 +43,7 @@ pub use provenance::{
 };
 pub use run_history::{channels_of, history_of, read_history};
 pub use run_up_correlation::write_run_up_correlation;
-pub use section::{write_document, write_section};
+pub use section::{Sink, write_document, write_section};
 pub use signal::{SignalMeta, write_signal, write_trend};
 pub use writer::{FINISHED, PREVIOUS, ResultsWriter, UNFINISHED, UNFINISHED_PREVIOUS, newest_results};
 

@@ -19,13 +19,13 @@ pub fn write_section(store: &Store, root: &str, section: &Section) -> Result<(),
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write_document(store: &Store, group: &str, found: &Document) -> Result<(), Error> {
+pub fn write_document(store: &impl Sink, group: &str, found: &Document) -> Result<(), Error> {
     let mut writer = Writer { store, scales: Vec::new() };
     writer.document(group, found)?;
     // An axis can stand behind the arrays over it.
     for Scale { array, dimension, axis } in &writer.scales {
         let label = axis.rsplit('/').next().unwrap_or(axis);
-        store.attach_scale(array, *dimension, axis, label)?;
+        store.axis(array, *dimension, axis, label)?;
     }
     Ok(())
 }
@@ -37,8 +37,48 @@ struct Scale {
     axis: String,
 }
 
-struct Writer<'a> {
-    store: &'a Store,
+/// What takes the groups, data sets and attributes of a document: an HDF5 file, or a tree in memory.
+pub trait Sink {
+    /// Makes a group if it does not exist yet.
+    fn group(&self, path: &str) -> Result<(), Error>;
+    /// Attribute of a group.
+    fn attribute(&self, group: &str, name: &str, value: Attribute) -> Result<(), Error>;
+    /// Numbers in row-major order.
+    fn numbers(&self, path: &str, shape: &[usize], values: &[f64], unit: &str) -> Result<(), Error>;
+    fn complex(&self, path: &str, shape: &[usize], values: &[Complex64], unit: &str) -> Result<(), Error>;
+    fn texts(&self, path: &str, shape: &[usize], texts: &[&str]) -> Result<(), Error>;
+    /// Names the axis of a dimension of a data set.
+    fn axis(&self, path: &str, dimension: usize, axis: &str, label: &str) -> Result<(), Error>;
+}
+
+impl Sink for Store {
+    fn group(&self, path: &str) -> Result<(), Error> {
+        self.create_group(path)
+    }
+
+    fn attribute(&self, group: &str, name: &str, value: Attribute) -> Result<(), Error> {
+        self.set_attribute(group, name, value)
+    }
+
+    fn numbers(&self, path: &str, shape: &[usize], values: &[f64], unit: &str) -> Result<(), Error> {
+        self.write(path, shape, values, &[("unit", Attribute::from(unit))])
+    }
+
+    fn complex(&self, path: &str, shape: &[usize], values: &[Complex64], unit: &str) -> Result<(), Error> {
+        self.write_complex(path, shape, values, &[("unit", Attribute::from(unit))])
+    }
+
+    fn texts(&self, path: &str, shape: &[usize], texts: &[&str]) -> Result<(), Error> {
+        self.write_text_array(path, shape, texts, &[])
+    }
+
+    fn axis(&self, path: &str, dimension: usize, axis: &str, label: &str) -> Result<(), Error> {
+        self.attach_scale(path, dimension, axis, label)
+    }
+}
+
+struct Writer<'a, S> {
+    store: &'a S,
     scales: Vec<Scale>,
 }
 
@@ -57,9 +97,9 @@ fn join(group: &str, name: &str) -> String {
     if name.is_empty() { group.into() } else { format!("{group}/{name}") }
 }
 
-impl Writer<'_> {
+impl<S: Sink> Writer<'_, S> {
     fn document(&mut self, group: &str, found: &Document) -> Result<(), Error> {
-        self.store.create_group(group)?;
+        self.store.group(group)?;
         for Field { names, value } in &found.fields {
             let Some(name) = &names.hdf5 else { continue };
             let at = join(group, name);
@@ -91,11 +131,11 @@ impl Writer<'_> {
 
     fn attribute(&self, at: &str, value: impl Into<Attribute>) -> Result<(), Error> {
         let (object, name) = at.rsplit_once('/').unwrap_or(("", at));
-        self.store.set_attribute(object, name, value)
+        self.store.attribute(object, name, value.into())
     }
 
     fn table(&mut self, at: &str, table: &Table) -> Result<(), Error> {
-        self.store.create_group(at)?;
+        self.store.group(at)?;
         let axis = table.axis.as_ref().map(|axis| join(at, axis));
         let form = Form { group: at, one: table.rows == Count::One, axis: axis.as_deref() };
         self.columns(at, &table.columns, form, &mut Vec::new())
@@ -152,18 +192,17 @@ impl Writer<'_> {
         unit: &str,
         axes: Vec<(usize, String)>,
     ) -> Result<(), Error> {
-        let unit = [("unit", Attribute::from(unit))];
-        let real = |values: Vec<f64>| self.store.write(at, shape, &values, &unit);
+        let real = |values: Vec<f64>| self.store.numbers(at, shape, &values, unit);
         match data {
-            Data::Real(values) => self.store.write(at, shape, values, &unit)?,
-            Data::Complex(values) => self.store.write_complex(at, shape, values, &unit)?,
+            Data::Real(values) => self.store.numbers(at, shape, values, unit)?,
+            Data::Complex(values) => self.store.complex(at, shape, values, unit)?,
             Data::Integers(values) => {
                 real(values.iter().map(|value| value.map_or(f64::NAN, |value| value as f64)).collect())?;
             }
             Data::Flags(values) => real(values.iter().map(|flag| f64::from(u8::from(*flag))).collect())?,
             Data::Texts(texts) => {
                 let texts: Vec<&str> = texts.iter().map(|text| text.as_deref().unwrap_or_default()).collect();
-                self.store.write_text_array(at, shape, &texts, &[])?;
+                self.store.texts(at, shape, &texts)?;
             }
         }
         let scale = |(dimension, axis)| Scale { array: at.into(), dimension, axis };

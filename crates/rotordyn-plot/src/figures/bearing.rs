@@ -19,14 +19,7 @@ const AXES: [&str; 5] = ["x", "y", "z", "θx", "θy"];
 /// All figures of a bearing; `title` is that of the model file.
 pub fn figures(found: &BearingResult, title: &str) -> Vec<Named> {
     let name = |what: &str| format!("bearing_{}_{what}", found.name);
-    let state = &found.point.state;
-    let [x, y, z, m_x, m_y] = state.load.map(|f| (10.0 * f).round() / 10.0 + 0.0);
-    let moments =
-        if m_x != 0.0 || m_y != 0.0 { format!(", moments {m_x}, {m_y} N·m") } else { String::new() };
-    let rpm = state.condition.speed * TO_RPM;
-    let estimated =
-        if found.bearing.estimated_geometry.is_some() { ", estimated internal geometry" } else { "" };
-    let note = format!("{rpm:.0} rpm, load {x}, {y}, {z} N{moments}{estimated} ({title})");
+    let note = note(found, title);
     let mut figures = vec![
         (name("ball_loads"), Figure::BallLoads(ball_loads(found, &note))),
         (name("contact_angles"), Figure::Lines(contact_angles(found, &note))),
@@ -53,6 +46,18 @@ pub fn figures(found: &BearingResult, title: &str) -> Vec<Named> {
             .map(|film| (name(&format!("film_{}", film.race)), Figure::FilmMap(film_map(found, film)))),
     );
     figures
+}
+
+/// Speed and load of the operating point, title of the model file.
+pub(super) fn note(found: &BearingResult, title: &str) -> String {
+    let state = &found.point.state;
+    let [x, y, z, m_x, m_y] = state.load.map(|f| (10.0 * f).round() / 10.0 + 0.0);
+    let moments =
+        if m_x != 0.0 || m_y != 0.0 { format!(", moments {m_x}, {m_y} N·m") } else { String::new() };
+    let rpm = state.condition.speed * TO_RPM;
+    let estimated =
+        if found.bearing.estimated_geometry.is_some() { ", estimated internal geometry" } else { "" };
+    format!("{rpm:.0} rpm, load {x}, {y}, {z} N{moments}{estimated} ({title})")
 }
 
 fn film_map(found: &BearingResult, film: &EhlFilm) -> FilmMap {
@@ -93,7 +98,7 @@ fn race_rows(found: &BearingResult) -> Vec<RaceRow<'_>> {
     (0..rows).flat_map(|row| [side(row, "inner", |b| &b.inner), side(row, "outer", |b| &b.outer)]).collect()
 }
 
-fn ball_loads(found: &BearingResult, note: &str) -> BallLoads {
+pub(super) fn ball_loads(found: &BearingResult, note: &str) -> BallLoads {
     let row = |side: RaceRow| {
         let most = side.balls.iter().map(|(_, c)| c.pressure).fold(0.0, f64::max);
         BallRow {
@@ -112,7 +117,7 @@ fn ball_loads(found: &BearingResult, note: &str) -> BallLoads {
 }
 
 /// Contact angles of the loaded balls over their position.
-fn contact_angles(found: &BearingResult, note: &str) -> Lines {
+pub(super) fn contact_angles(found: &BearingResult, note: &str) -> Lines {
     let curve = |side: RaceRow| {
         let loaded = || side.balls.iter().filter(|(_, c)| c.load > 0.0);
         Curve {
@@ -156,7 +161,7 @@ fn contact_angles(found: &BearingResult, note: &str) -> Lines {
 }
 
 /// Section through the most heavily loaded ball; none without load.
-fn section(found: &BearingResult, note: &str) -> Option<BearingSection> {
+pub(super) fn section(found: &BearingResult, note: &str) -> Option<BearingSection> {
     let g = &found.bearing.geometry;
     let load = |b: &BallState| b.inner.load.max(b.outer.load);
     let ball =
@@ -205,7 +210,7 @@ fn section(found: &BearingResult, note: &str) -> Option<BearingSection> {
 }
 
 /// A grid over a sweep, without panels.
-fn over(found: &BearingResult, sweep: &BearingSweepResult, title: &str) -> Grid {
+pub(super) fn over(found: &BearingResult, sweep: &BearingSweepResult, title: &str) -> Grid {
     let at = &found.point.state;
     let (name, unit, factor) = abscissa(sweep);
     let operating = match sweep.of {
@@ -243,7 +248,7 @@ fn abscissa(sweep: &BearingSweepResult) -> (String, &'static str, f64) {
     }
 }
 
-fn curve(sweep: &BearingSweepResult, value: impl Fn(&BearingPoint) -> f64) -> Curve {
+pub(super) fn curve(sweep: &BearingSweepResult, value: impl Fn(&BearingPoint) -> f64) -> Curve {
     let factor = abscissa(sweep).2;
     Curve {
         x: sweep.values.iter().map(|v| factor * v).collect(),
@@ -252,7 +257,7 @@ fn curve(sweep: &BearingSweepResult, value: impl Fn(&BearingPoint) -> f64) -> Cu
     }
 }
 
-fn panel(name: &str, unit: &str, from_zero: bool, curves: Vec<Curve>) -> GridPanel {
+pub(super) fn panel(name: &str, unit: &str, from_zero: bool, curves: Vec<Curve>) -> GridPanel {
     GridPanel { name: name.into(), unit: unit.into(), curves, from_zero, log_y: false }
 }
 
@@ -343,19 +348,21 @@ fn life(found: &BearingResult, sweep: &BearingSweepResult, note: &str) -> Lines 
     }
 }
 
-fn contacts(found: &BearingResult, sweep: &BearingSweepResult) -> Grid {
+/// Value at inner and outer race of the most loaded ball.
+pub(super) fn of_most_loaded_ball(sweep: &BearingSweepResult, value: fn(&ContactState) -> f64) -> Vec<Curve> {
     type Pick = fn(&BallState) -> &ContactState;
     let races: [Pick; 2] = [|b| &b.inner, |b| &b.outer];
-    // Value at both races of the most loaded ball.
-    let of_most_loaded_ball = |value: fn(&ContactState) -> f64| -> Vec<Curve> {
-        let of = |pick: Pick| {
-            curve(sweep, move |p| {
-                let heaviest = p.balls.iter().max_by(|a, b| a.outer.load.total_cmp(&b.outer.load));
-                heaviest.filter(|b| pick(b).load > 0.0).map_or(f64::NAN, |b| value(pick(b)))
-            })
-        };
-        races.iter().map(|pick| of(*pick)).collect()
+    let of = |pick: Pick| {
+        curve(sweep, move |p| {
+            let heaviest = p.balls.iter().max_by(|a, b| a.outer.load.total_cmp(&b.outer.load));
+            heaviest.filter(|b| pick(b).load > 0.0).map_or(f64::NAN, |b| value(pick(b)))
+        })
     };
+    races.map(of).into()
+}
+
+fn contacts(found: &BearingResult, sweep: &BearingSweepResult) -> Grid {
+    let of_most_loaded_ball = |value: fn(&ContactState) -> f64| of_most_loaded_ball(sweep, value);
     let mut panels = vec![
         panel("max ball load", "N", true, of_most_loaded_ball(|c| c.load)),
         panel("contact angle", "°", false, of_most_loaded_ball(|c| c.angle.to_degrees())),

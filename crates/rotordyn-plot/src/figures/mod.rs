@@ -16,6 +16,7 @@
 //! | `spectrogram_<channel>`, `waterfall_<channel>` | spectra over speed with the linear Campbell lines |
 //! | `orders_<channel>`, `order_cuts_<channel>`, `order_tracks_<channel>` | order tracking: order map, order cuts with their range over the cage phases, amplitude and phase by the Vold-Kalman filter |
 //! | `poincare_orbits`, `poincare_sections`, `lyapunov`, `bifurcation_<channel>` | steady motion at constant speed |
+//! | `bearing_<bearing>_sheet` | bearing on one page: load distribution, contact angles, stiffness, contacts and friction over load and speed |
 //! | `bearing_<bearing>_ball_loads`, `..._contact_angles` | bearing analysis at the operating point |
 //! | `bearing_<bearing>_stiffness_over_<sweep>`, `..._displacement_...`, `..._contacts_...` | sweeps over load, displacement, speed, cage angle |
 //! | `bearing_<bearing>_cage_speed`, `..._spin_axes`, `..._cage_orbit`, `..._skidding` | bearing with free balls and cage |
@@ -28,6 +29,7 @@
 //! | `comparison_spectrogram_<channel>`, `comparison_waterfall_<channel>`, `comparison_order_cuts_<channel>` | run-ups of cases side by side, with a measured one |
 
 mod bearing;
+mod bearing_sheet;
 mod campbell;
 mod comparison;
 mod concern;
@@ -260,7 +262,13 @@ pub fn of_bearings(found: &[BearingResult], title: &str) -> Vec<WithWarnings> {
 fn bearing_figures(found: &BearingResult, title: &str) -> impl Iterator<Item = Named> {
     let free = found.free_balls.iter().flat_map(|free| free_ball::figures(free, title));
     let skidding = found.skidding.iter().map(|map| free_ball::skidding(map, title));
-    bearing::figures(found, title).into_iter().chain(free).chain(skidding)
+    let sheet = bearing_sheet::figure(found, title);
+    std::iter::once(sheet).chain(bearing::figures(found, title)).chain(free).chain(skidding)
+}
+
+/// The page of a ball bearing for its designer, `bearing_<bearing>_sheet`.
+pub fn bearing_sheet(found: &BearingResult, title: &str) -> Figure {
+    bearing_sheet::figure(found, title).1
 }
 
 /// Draws FRFs, unbalance responses and Campbell diagrams of several cases of a model on common axes; returns the SVG

@@ -9,6 +9,7 @@ use crate::model::study::BearingStudy;
 use crate::results::BearingPoint;
 use crate::warning::{Code, Warning};
 use rotordyn_bearing::limits::{BearingLoad, ExceededLimit};
+use rotordyn_bearing::{BallLoad, LimitCheck};
 use std::mem::discriminant;
 
 impl Machine {
@@ -75,11 +76,20 @@ impl Machine {
 
 impl SingleBearingStudy<'_> {
     fn exceeded_limits(&self, point: &BearingPoint) -> Vec<ExceededLimit> {
+        self.load_at(point, &self.solver.ball_loads(&point.state)).exceeded_limits()
+    }
+
+    /// Every limit that applies, with its figure.
+    pub(super) fn limit_checks(&self, point: &BearingPoint) -> Vec<LimitCheck> {
+        self.load_at(point, &self.solver.ball_loads(&point.state)).limit_checks()
+    }
+
+    fn load_at<'b>(&'b self, point: &BearingPoint, balls: &'b [BallLoad]) -> BearingLoad<'b> {
         let speed = point.state.condition.speed;
         let film = self.bearing.lubricant().map(|_| [point.minimum_film(), self.study.roughness]);
         BearingLoad {
             bearing: self.bearing,
-            balls: &self.solver.ball_loads(&point.state),
+            balls,
             speed,
             cage_speed: point.orders.ftf * speed,
             axial_displacement: point.state.displacement[2],
@@ -88,7 +98,6 @@ impl SingleBearingStudy<'_> {
             static_rating: self.rating().static_rating,
             film,
         }
-        .exceeded_limits()
     }
 
     /// Warnings at the operating point.

@@ -1,0 +1,188 @@
+//! Every limit of a ball bearing beside its figure, exceeded or not: what a designer looks up.
+
+use super::limits::{BearingLoad, LOST_ANGLE, LOWEST_FILM_RATIO, TRACTION, race_name};
+use super::load_rating::STATIC_CONTACT_STRESS;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// Speed parameter n d_m up to which grease lasts in deep groove ball bearings \[mm/min\]; a guide of makers' catalogues,
+/// n in rpm, d_m the pitch diameter in mm.
+pub const GREASE_SPEED_PARAMETER: f64 = 5e5;
+
+/// What a figure says beside its limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Verdict {
+    Within,
+    /// An assumption of the model fails, or the bearing is misused: there is a warning.
+    Exceeded,
+    /// Beyond a guide of makers; no warning.
+    BeyondGuide,
+}
+
+impl Verdict {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Within => "within",
+            Self::Exceeded => "exceeded",
+            Self::BeyondGuide => "beyond the guide",
+        }
+    }
+}
+
+/// A figure and its limit, both in the same unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LimitCheck {
+    pub quantity: String,
+    pub value: f64,
+    /// Least or greatest value, as `is_least` says.
+    pub limit: f64,
+    pub is_least: bool,
+    pub unit: String,
+    pub verdict: Verdict,
+    /// What the limit says.
+    pub says: String,
+}
+
+/// Sides of a limit.
+const LEAST: bool = true;
+const GREATEST: bool = false;
+
+fn check(quantity: &str, [value, limit]: [f64; 2], is_least: bool, unit: &str, says: &str) -> LimitCheck {
+    let holds = if is_least { value >= limit } else { value <= limit };
+    LimitCheck {
+        quantity: quantity.into(),
+        value,
+        limit,
+        is_least,
+        unit: unit.into(),
+        verdict: if holds { Verdict::Within } else { Verdict::Exceeded },
+        says: says.into(),
+    }
+}
+
+impl BearingLoad<'_> {
+    /// The limits that apply to the bearing, each with its figure; where one is exceeded,
+    /// [`exceeded_limits`](Self::exceeded_limits) has it too.
+    pub fn limit_checks(&self) -> Vec<LimitCheck> {
+        let g = &self.bearing.geometry;
+        let loaded = self.loads().count();
+        let speed_parameter = 1e3 * g.pitch_diameter * self.speed.abs() * 30.0 / PI;
+        let mut grease = check(
+            "speed parameter n d_m",
+            [speed_parameter, GREASE_SPEED_PARAMETER],
+            GREATEST,
+            "mm/min",
+            "makers' guide for grease in deep groove ball bearings; oil, ceramic balls and light series allow more",
+        );
+        if grease.verdict == Verdict::Exceeded {
+            grease.verdict = Verdict::BeyondGuide;
+        }
+        let balls = check(
+            "loaded balls",
+            [loaded as f64, 1.0],
+            LEAST,
+            "1",
+            "without a loaded ball the bearing has no stiffness",
+        );
+        if loaded == 0 {
+            return vec![balls, grease];
+        }
+        let safety = self.static_rating / self.static_load;
+        let static_safety = check(
+            "static safety s_0 = C_0/P_0",
+            [safety, 1.0],
+            LEAST,
+            "1",
+            "below 1 races and balls keep dents (ISO 76)",
+        );
+        let pressure = self.largest_pressure().map(|(race, pressure)| {
+            check(
+                &format!("contact pressure, {} race", race_name(race)),
+                [pressure, STATIC_CONTACT_STRESS],
+                GREATEST,
+                "Pa",
+                "above it the most loaded contact keeps a dent of 1e-4 of the ball diameter (ISO 76)",
+            )
+        });
+        let nearest = self.shoulders().min_by(|(_, a), (_, b)| a.arc.total_cmp(&b.arc));
+        let shoulder = nearest.map(|(race, margin)| {
+            check(
+                &format!("contact ellipse to shoulder, {} race", race_name(race)),
+                [margin.arc, 0.0],
+                LEAST,
+                "m",
+                "below 0 the shoulder cuts the ellipse: load and pressure there are invalid",
+            )
+        });
+        let film = self.film.filter(|_| self.speed != 0.0).map(|[film, roughness]| {
+            check(
+                "film ratio lambda",
+                [film / roughness, LOWEST_FILM_RATIO],
+                LEAST,
+                "1",
+                "below 1 asperities touch; above 3 the film separates the surfaces",
+            )
+        });
+        let minimum = self.needed_load().map(|minimum| {
+            check(
+                "equivalent load against the minimum load",
+                [self.equivalent_load, minimum],
+                LEAST,
+                "N",
+                "below it balls and cage may skid, as some balls carry no load",
+            )
+        });
+        let sliding = self.gyroscopic_coefficient().map(|coefficient| {
+            check(
+                "friction coefficient against gyroscopic sliding",
+                [coefficient, TRACTION],
+                GREATEST,
+                "1",
+                "above it the gyroscopic moment turns the balls about the line of contact",
+            )
+        });
+        let angle = self.mean_contact_angle().map(|mean| {
+            check(
+                "mean contact angle by load",
+                [mean, LOST_ANGLE * g.contact_angle],
+                LEAST,
+                "rad",
+                "below half the nominal angle the row has slid axially: it needs thrust or preload",
+            )
+        });
+        let open_side = self.balls_on_open_side().map(|balls| {
+            check(
+                "balls on the open side of the outer race",
+                [balls as f64, 0.0],
+                GREATEST,
+                "1",
+                "that side has no shoulder",
+            )
+        });
+        let fitted = self.outside_fitted_law().map(|(outside, _)| {
+            check(
+                "balls outside the range of the fitted contact law",
+                [outside as f64, 0.0],
+                GREATEST,
+                "1",
+                "there the law is extrapolated",
+            )
+        });
+        let has_static_load = safety.is_finite().then_some(static_safety);
+        let found = [
+            Some(balls),
+            has_static_load,
+            pressure,
+            shoulder,
+            film,
+            minimum,
+            Some(grease),
+            sliding,
+            angle,
+            open_side,
+            fitted,
+        ];
+        // A figure that a standard does not define has no limit.
+        found.into_iter().flatten().filter(|check| !check.value.is_nan()).collect()
+    }
+}
