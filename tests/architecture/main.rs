@@ -69,10 +69,8 @@ impl Source {
 
 fn sources() -> Vec<Source> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut roots = vec![
-        (String::new(), root.join("src")),
-        ("rotordyn-python/".into(), root.join("python/src")),
-    ];
+    let mut roots =
+        vec![(String::new(), root.join("src")), ("rotordyn-python/".into(), root.join("python/src"))];
     for entry in fs::read_dir(root.join("crates")).unwrap() {
         let folder = entry.unwrap().path();
         roots.push((format!("{}/", folder.file_name().unwrap().to_str().unwrap()), folder.join("src")));
