@@ -122,8 +122,14 @@ class Model:
         return self.copy()
 
     def __getitem__(self, key: str) -> Any:
-        """A value as it is written in the file (a text with its unit, a number, a list, a dictionary), or its default."""
-        return self._native.value(path(key))
+        """A value as it is written in the file (a text with its unit, a number, a list, a dictionary).
+
+        Of a key that the file does not give, the text of the default that the model takes.
+        """
+        found = self._native.value(path(key))
+        # Defaults are texts of the file, quoted if they are texts there.
+        quoted = isinstance(found, str) and len(found) > 1 and found[0] == found[-1] == '"'
+        return found[1:-1] if quoted else found
 
     def __setitem__(self, key: str, value: Any) -> None:
         self._change({key: value}, 3)

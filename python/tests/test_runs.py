@@ -70,10 +70,13 @@ def test_progress_and_its_exception() -> None:
 
 def test_ctrl_c_keeps_what_was_computed() -> None:
     model = load("overhung_rig.toml")
+    # A shell that starts the tests in the background ignores Ctrl-C for them.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     with warnings.catch_warnings(record=True) as given:
         warnings.simplefilter("always")
         found = model.run_up()
+    signal.signal(signal.SIGINT, before)
     assert not found.complete and 0.0 < found.time[-1] and len(found["B_force_y"]) == len(found.time)
     codes = [w.message.code for w in given if isinstance(w.message, rd.RotordynWarning)]
     assert "incomplete-run" in codes
