@@ -24,10 +24,15 @@ pub fn critical_map(terminal: &Terminal, found: &CriticalMap) {
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let title =
         format!("Undamped critical speeds up to {:.0} rpm, over bearing stiffness", rpm(found.max_speed));
-    match found.curves.is_empty() {
-        true => terminal.heading(&format!("{title}: none")),
-        false => terminal.table(&title, &header, &rows),
+    if found.curves.is_empty() {
+        terminal.heading(&format!("{title}: none"));
+        terminal.print(
+            "  every lateral mode lies above that speed at every stiffness of the map: raise --max-speed, or check the masses \
+             of shaft and discs",
+        );
+        return;
     }
+    terminal.table(&title, &header, &rows);
     match found.crossings.is_empty() {
         true => terminal.print("  no curve meets the bearings' own stiffness in this range"),
         false => printed::tables(terminal, &found.document()),

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use crate::error::Error;
 use crate::measured::mapping::direction;
 use rotordyn_core::element::Anchor;
-use rotordyn_core::model::Model;
+use rotordyn_core::model::{Model, Probe};
 use rotordyn_core::results::{FrfResult, History, ModalResult};
 use rotordyn_core::series::SeriesError;
 use rotordyn_core::study::Machine;
@@ -29,8 +29,14 @@ pub fn run_records(history: &History, model: &Model) -> Result<MeasuredData, Ser
         Record::new(name, Kind::Time, axis.clone(), Values::Real(values), unit)
     };
     let channel = |c: &rotordyn_core::results::HistoryChannel| -> Result<Record, SeriesError> {
-        let response =
-            Dof::new(point_number(model, &c.station).unwrap_or(0), direction(&c.direction).unwrap_or(0));
+        // A probe beside its station has no point of its own: one on the shaft would be another place.
+        let beside = |p: &Probe| p.name == c.name && p.at.offset != [0.0; 3];
+        let response = match model.probes.iter().any(beside) {
+            true => Dof::NONE,
+            false => {
+                Dof::new(point_number(model, &c.station).unwrap_or(0), direction(&c.direction).unwrap_or(0))
+            }
+        };
         Ok(Record { response, ..record(&c.name, &c.unit, c.values.all()?.into_owned()) })
     };
     let mut records = history.channels.iter().map(channel).collect::<Result<Vec<Record>, _>>()?;

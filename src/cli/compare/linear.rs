@@ -95,7 +95,10 @@ pub fn run(args: &CompareArgs, cases: &[Case], terminal: &Terminal) -> Result<Ou
         let campbell: Vec<(&str, &CampbellResult)> =
             computed.iter().filter_map(|v| Some((v.name.as_str(), v.results.campbell.as_ref()?))).collect();
         let (frfs, unbalance) = (frfs.as_ref(), unbalance.as_ref());
-        let drawn = LinearComparison { note: &model.title, frfs, unbalance, campbell: &campbell };
+        // Variants may have titles of their own.
+        let same = computed.iter().all(|v| v.machine.model.title == model.title);
+        let note = if same { &model.title } else { &model.name };
+        let drawn = LinearComparison { note, frfs, unbalance, campbell: &campbell };
         files.extend(figures::draw_comparison(drawn, &folder)?);
     }
     if !files.is_empty() {
