@@ -75,13 +75,13 @@ function limitTable(source) {
   const units = source.values("limits/unit").map(designUnit);
   const scaledBy = (name) => source.values(`limits/${name}`).map((v, k) => v * units[k][1]);
   const side = source.values("limits/side");
-  const verdict = source.values("limits/verdict");
+  const state = source.values("limits/state");
   const limits = scaledBy("limit").map((v, k) => `${side[k]} ${digits(v)}`);
   const columns = [
     { name: "quantity", values: quantity }, { name: "value", values: scaledBy("value"), digits: 4 }, { name: "limit", values: limits },
-    { name: "unit", values: units.map(([word]) => (word === "1" ? "" : word)) }, { name: "state", values: verdict }, { name: "what it says", values: source.values("limits/says") },
+    { name: "unit", values: units.map(([word]) => (word === "1" ? "" : word)) }, { name: "state", values: state }, { name: "what it says", values: source.values("limits/says") },
   ];
-  return table("Limits at the operating point", columns, { mark: (r) => verdict[r] !== "within" });
+  return table("Limits at the operating point", columns, { mark: (r) => state[r] !== "within" });
 }
 
 function geometryTables(source, entry) {

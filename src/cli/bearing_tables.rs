@@ -269,7 +269,7 @@ fn limits(terminal: &Terminal, found: &BearingResult) {
             number(factor * check.value, 4),
             format!("{side} {}", number(factor * check.limit, 4)),
             unit.to_string(),
-            check.verdict.name().to_string(),
+            check.state.name().to_string(),
         ]
     };
     let rows: Vec<Vec<String>> = found.limits.iter().map(row).collect();

@@ -53,12 +53,7 @@ pub fn run(path: Option<&str>, terminal: &Terminal) -> Result<Value, Failure> {
     if !path.is_empty() && command_help::text(path).is_some() {
         terminal.print(&format!("\nThe command of this name: rotordyn {path} --help"));
     }
-    Ok(json!({
-        "command": "help",
-        "path": found.path,
-        "keys": found.keys.iter().map(to_json).collect::<Vec<_>>(),
-        "members": found.members.iter().map(to_json).collect::<Vec<_>>(),
-    }))
+    Ok(Value::from(&found))
 }
 
 /// The JSON Schema of the model file.
@@ -110,25 +105,6 @@ fn code_to_json(code: Code) -> Value {
         "severity": code.severity().name(),
         "when": code.when(),
         "advice": code.advice(),
-    })
-}
-
-fn to_json(key: &KeyDescription) -> Value {
-    json!({
-        "path": key.path,
-        "name": key.name,
-        "kind": key.kind.name(),
-        "value": key.value,
-        "unit": key.unit,
-        "range": key.range,
-        "words": key.words,
-        "required": key.required,
-        "default": key.default,
-        "absent": key.absent,
-        "conditions": key.conditions(),
-        "meaning": key.meaning,
-        "example": key.example,
-        "members": key.members,
     })
 }
 

@@ -100,6 +100,10 @@ fn mass_on_springs_with(more: &str, variant: Option<&str>) -> Machine {
     Machine::new(load("mass.toml", &text, &options).unwrap_or_else(|e| panic!("{e:?}")).model).unwrap()
 }
 
+fn seconds(time: &[f64]) -> agree::Over<'_> {
+    agree::Over { name: "time", unit: "s", values: time }
+}
+
 /// (jω)^p/(k − m ω² + jω c), p = 0, 1, 2: velocity leads displacement by 90°.
 #[test]
 fn receptance_mobility_and_accelerance() {
@@ -118,6 +122,24 @@ fn receptance_mobility_and_accelerance() {
             let off = C::new(value.re, value.im) - expected;
             agree::curve(format_args!("{quantity:?} at {hz} Hz"), off.norm(), expected.norm(), 1e-12);
         }
+        let hz: Vec<f64> = (10..=300).map(f64::from).collect();
+        let found = frf(&machine.assembly, &system, &hz, &row, &row, *quantity).unwrap();
+        let ours: Vec<f64> = found.values[0][0].iter().map(|value| value.re.hypot(value.im)).collect();
+        let closed = |hz: &f64| {
+            let w = TAU * hz;
+            w.powi(power as i32) / C::new(2e6 - 4.8 * w * w, 600.0 * w).norm()
+        };
+        let closed: Vec<f64> = hz.iter().map(closed).collect();
+        let unit = ["m/N", "m/s/N", "m/s²/N"][power];
+        let over = agree::Over { name: "frequency", unit: "Hz", values: &hz };
+        agree::curves(
+            format_args!("magnitude of {quantity:?} over force"),
+            unit,
+            over,
+            &ours,
+            &closed,
+            1e-12,
+        );
     }
 }
 
@@ -132,17 +154,18 @@ fn step_response_with_modal_damping() {
     let reduction = machine.reduce(&study).unwrap();
     let (omega, zeta) = (f64::sqrt(2e6 / 4.8), 0.05_f64);
     let damped = omega * (1.0 - zeta * zeta).sqrt();
-    let mut worst = 0.0_f64;
+    let [mut time, mut ours, mut expected] = [const { Vec::new() }; 3];
     let report = machine.run_up(&study, &reduction, |sample| {
         let t = sample.state.time;
         let (sin, cos) = (damped * t).sin_cos();
-        let expected = 5e-5 * (1.0 - (-zeta * omega * t).exp() * (cos + zeta * omega / damped * sin));
-        worst = worst.max((sample.channels[0] - expected).abs());
+        time.push(t);
+        ours.push(sample.channels[0]);
+        expected.push(5e-5 * (1.0 - (-zeta * omega * t).exp() * (cos + zeta * omega / damped * sin)));
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
     // Integration error at most (ω h)⁴ = 3e-8.
-    agree::curve("step response [m]", worst, 5e-5, 1e-7);
+    agree::curves("step response", "m", seconds(&time), &ours, &expected, 1e-7);
 }
 
 /// Negative stiffness, as of a magnetic pull: x = F/(m a²) (cosh at − 1) with a² = −k/m. K is indefinite, so the
@@ -156,15 +179,15 @@ fn growth_on_negative_stiffness() {
         RunUpStudy { integrator: Integrator::RungeKutta4, ..machine.model.studies.run_up.clone().unwrap() };
     let reduction = machine.reduce(&study).unwrap();
     let rate = f64::sqrt(120.0 / 4.8);
-    let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+    let [mut time, mut ours, mut expected] = [const { Vec::new() }; 3];
     let report = machine.run_up(&study, &reduction, |sample| {
-        let expected = ((rate * sample.state.time).cosh() - 1.0) / 120.0;
-        worst = worst.max((sample.channels[0] - expected).abs());
-        largest = largest.max(expected);
+        time.push(sample.state.time);
+        ours.push(sample.channels[0]);
+        expected.push(((rate * sample.state.time).cosh() - 1.0) / 120.0);
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
-    agree::curve("growth on a negative stiffness [m]", worst, largest, 1e-9);
+    agree::curves("growth on a negative stiffness", "m", seconds(&time), &ours, &expected, 1e-9);
 }
 
 /// Jeffcott rotor with internal (rotating) damping: m z̈ + (c_e + c_i) ż + (k − jΩ c_i) z = F,
@@ -214,6 +237,7 @@ fn unstable_forward_whirl_due_to_internal_damping() {
     let (s1, s2) = ((root - damping) / (2.0 * mass), (-root - damping) / (2.0 * mass));
     assert!(s1.re.max(s2.re) > 5.0, "{s1} {s2}");
     let (mut worst, mut farthest) = (0.0_f64, 0.0_f64);
+    let [mut time, mut along_x, mut expected_x] = [const { Vec::new() }; 3];
     let report = machine.run_up(&study, &reduction, |sample| {
         let t = sample.state.time;
         let transient = (s2 * (s1 * t).exp() - s1 * (s2 * t).exp()) / (s1 - s2);
@@ -221,9 +245,13 @@ fn unstable_forward_whirl_due_to_internal_damping() {
         let computed = C::new(sample.channels[0], sample.channels[1]);
         worst = worst.max((computed - expected).norm());
         farthest = farthest.max(expected.norm());
+        time.push(t);
+        along_x.push(computed.re);
+        expected_x.push(expected.re);
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
     // Newmark period error (ω h)²/12 times 50 rad: 3e-5; rotary inertia of disc and shaft: 1e-6.
     agree::curve("unstable forward whirl [m]", worst, farthest, 3e-4);
+    agree::curves("unstable forward whirl, x", "m", seconds(&time), &along_x, &expected_x, 3e-4);
 }

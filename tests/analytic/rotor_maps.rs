@@ -103,6 +103,16 @@ fn critical_speed_map_of_jeffcott_rotor() {
         // The mass of the shaft is 7e-5 of the disc's, of which 1/2 counts at most.
         agree::relative("critical speed over stiffness [rad/s]", *speed, closed(*k), 4e-5);
     }
+    let over = agree::Over { name: "bearing stiffness", unit: "N/m", values: &found.stiffness };
+    let expected: Vec<f64> = found.stiffness.iter().map(|k| closed(*k)).collect();
+    agree::curves(
+        "first critical speed of a Jeffcott rotor",
+        "rad/s",
+        over,
+        &found.curves[0].speeds,
+        &expected,
+        4e-5,
+    );
     let crossing = found.crossings.iter().find(|c| c.mode == found.curves[0].label).unwrap();
     assert_eq!(crossing.bearing, "A x, A y, B x, B y");
     agree::relative("stiffness of the crossing [N/m]", crossing.stiffness, 5e5, 1e-8);
@@ -131,6 +141,7 @@ fn log_decrement_on_cross_coupled_bearings() {
     let found = machine.campbell(&study).unwrap();
     let least = found.least_damped();
     assert_eq!(least.len(), 17);
+    let mut closed = Vec::new();
     for point in &least {
         let root = Complex::new(4.0 * c * c - 8.0 * mass * k, 8.0 * mass * kappa * point.speed).sqrt();
         let decrement = |s: Complex<f64>| -TAU * s.re / s.im.abs();
@@ -139,7 +150,11 @@ fn log_decrement_on_cross_coupled_bearings() {
             .into_iter()
             .fold(f64::INFINITY, f64::min);
         agree::absolute("least log decrement", point.log_decrement, expected, 1e-9);
+        closed.push(expected);
     }
+    let over = agree::Over { name: "shaft speed", unit: "rad/s", values: &study.speeds };
+    let ours: Vec<f64> = least.iter().map(|point| point.log_decrement).collect();
+    agree::curves("least log decrement on cross-coupled bearings", "1", over, &ours, &closed, 1e-9);
     // m s² + 2 c s + 2 k = j 2 κΩ: Im gives 2 c ω = 2 κΩ.
     let threshold = c * (2.0 * k / mass).sqrt() / kappa;
     agree::relative("threshold of stability [rad/s]", found.thresholds[0].speed, threshold, 1e-9);

@@ -62,6 +62,15 @@ fn simply_supported_beam_under_its_weight() {
         // σ = 32 M/(π d³).
         close(p.stress, 32.0 * p.moment[1] / (PI * 0.04_f64.powi(3)), 1e6);
     }
+    let z: Vec<f64> = found.shaft.iter().map(|p| p.z).collect();
+    let over = agree::Over { name: "z", unit: "m", values: &z };
+    let moments: Vec<f64> = found.shaft.iter().map(|p| p.moment[1]).collect();
+    let closed: Vec<f64> = z.iter().map(|z| 0.5 * w * z * (length - z)).collect();
+    agree::curves("bending moment of a simply supported beam", "N m", over, &moments, &closed, 1e-8);
+    let sag: Vec<f64> = found.shaft.iter().map(|p| p.displacement[1]).collect();
+    let cubic = |z: &f64| -w * z * (length.powi(3) - 2.0 * length * z * z + z.powi(3)) / (24.0 * ei);
+    let closed: Vec<f64> = z.iter().map(cubic).collect();
+    agree::curves("deflection of a simply supported beam", "m", over, &sag, &closed, 1e-8);
     let (middle, moment) = ShaftPoint::largest(&found.shaft, |p| p.moment[1]).unwrap();
     agree::absolute("place of the largest bending moment [m]", middle.z, 0.5, 1e-12);
     close(moment, top, top);
@@ -157,8 +166,9 @@ fn bearing_forces_balance_unbalance_and_inertia() {
             let inertia: Complex64 =
                 momentum.iter().skip(axis).step_by(6).sum::<Complex64>() * (speed * speed);
             let rest = bearings + unbalance + inertia;
+            let size = unbalance.norm() + bearings.norm();
             // Round-off of the stiff shaft against the forces of the bearings.
-            assert!(rest.norm() < 1e-9 * (unbalance.norm() + bearings.norm()), "{speed}: {rest}");
+            agree::curve(format_args!("balance of forces at {speed} rad/s"), rest.norm(), size, 1e-9);
         }
     }
     // Half the weight at each bearing at rest.
@@ -180,15 +190,15 @@ fn sections_under_unbalance_carry_the_bearing_forces() {
     let sections = ShaftSections::new(&machine.model).at_speed(&q, speed);
     let complex = |[re, im]: [f64; 2]| Complex64::new(re, im);
     let [a, b] = [0, 1].map(|k| complex(found.bearing_forces[k].x[0]));
-    let off = |found: Complex64, expected: Complex64| {
-        assert!((found - expected).norm() < 1e-8 * a.norm(), "{found} is not {expected}");
+    let off = |what: &str, found: Complex64, expected: Complex64| {
+        agree::curve(what, (found - expected).norm(), a.norm(), 1e-8);
     };
-    off(sections[0].shear[0], a);
-    off(sections[19].shear[0], -b);
-    off(sections[0].moment[0], Complex64::default());
-    off(sections[19].moment[1], Complex64::default());
+    off("shear force at the first bearing", sections[0].shear[0], a);
+    off("shear force at the second bearing", sections[19].shear[0], -b);
+    off("bending moment at the first end", sections[0].moment[0], Complex64::default());
+    off("bending moment at the second end", sections[19].moment[1], Complex64::default());
     let disc = q[30] * (12.0 * speed * speed) + Complex64::from_polar(2e-4 * speed * speed, 0.4);
-    off(sections[10].shear[0] - sections[9].shear[0], disc);
+    off("step of the shear force at the disc", sections[10].shear[0] - sections[9].shear[0], disc);
     // Circular whirl on isotropic supports: the amplitudes are those of one direction.
     let points = &found.shaft[0].points;
     agree::relative(

@@ -1,6 +1,7 @@
 //! Dependency rules of CONTRIBUTING.md (module layers, foreign crates), checked on the source text.
 
 mod imports;
+mod references;
 mod terms;
 
 use std::fs;

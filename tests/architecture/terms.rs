@@ -118,24 +118,3 @@ fn scanner_finds_identifiers_outside_of_comments_and_literals() {
         assert!(!found.contains(&word), "{word} in {found:?}");
     }
 }
-
-/// Folders of tests whose comparisons are rows of the book's validation chapter.
-const COMPARED: [&str; 4] =
-    ["tests/analytic", "tests/cross", "tests/literature", "crates/rotordyn-bearing/tests/analytic"];
-
-/// A comparison with a reference leaves a row: none is an `assert!` on a difference.
-#[test]
-fn comparisons_with_references_are_rows() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut wrong = Vec::new();
-    for path in rust_files() {
-        let below = path.strip_prefix(root).unwrap_or(&path);
-        if !COMPARED.iter().any(|folder| below.starts_with(folder)) {
-            continue;
-        }
-        let text = fs::read_to_string(&path).unwrap();
-        let bare = |line: &&str| line.contains("assert!(") && line.contains(".abs() <");
-        wrong.extend(text.lines().filter(bare).map(|line| format!("{}: {}", below.display(), line.trim())));
-    }
-    assert!(wrong.is_empty(), "use `agree`, so that the validation chapter has them:\n{}", wrong.join("\n"));
-}

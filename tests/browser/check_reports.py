@@ -116,6 +116,35 @@ def check_hovers(page, results, faults):
     return checked
 
 
+def check_bearings(page, results, faults):
+    """Every ball bearing has its section; the load of its most loaded ball is that of the file."""
+    sections = page.evaluate("[...document.querySelectorAll('section[id^=bearing-] h2')].map((e) => e.textContent)")
+    stored = []
+    if "bearings" in results:
+        results["bearings"].visititems(lambda path, group: stored.append(path) if "load_source" in group.attrs else None)
+    for name in stored:
+        faults.unless(f"Bearing {name}" in sections, f"no section of bearing {name} among {sections}")
+    for k, title in enumerate(sections):
+        if page.locator(f"#bearing-{k}").inner_text().find("Not shown:") >= 0:
+            continue
+        faults.unless(page.locator(f"#bearing-{k} figure.table").count() >= 6, f"{title}: too few tables")
+        name = title.removeprefix("Bearing ")
+        if name not in stored:
+            continue
+        loads = results[f"bearings/{name}/operating/balls/outer/load"][()]
+        position = results[f"bearings/{name}/operating/balls/position"][()]
+        rows = results[f"bearings/{name}/operating/balls/row"][()]
+        ball = int(loads.argmax())
+        inside = [j for j in range(len(loads)) if rows[j] == rows[ball]]
+        chart = page.evaluate(
+            "(k) => charts.findIndex((made) => made.node.closest('section')?.id === `bearing-${k}` && made.node.textContent.includes('Load of every ball'))", k
+        )
+        # Two circles, bars of both races, then the balls of every row.
+        text = hover(page, chart, 5 * int(rows[ball]) + 4, inside.index(ball))
+        faults.unless(says(text, loads[ball]), f"{title}: hover says {text!r}, file {loads[ball]} N at {math.degrees(position[ball])} deg")
+    return len(sections)
+
+
 def check_shapes(page, results, faults):
     """Every mode moves: a picture of it differs from one a moment later."""
     if page.locator("canvas").count() == 0:
@@ -195,6 +224,7 @@ def check(browser, path, results_path, shots):
     with h5py.File(results_path) as results:
         curves = check_curves(page, faults)
         hovers = check_hovers(page, results, faults)
+        bearings = check_bearings(page, results, faults)
         modes = check_shapes(page, results, faults)
     controls = check_keyboard(page, faults)
     check_accessibility(page, faults)
@@ -206,7 +236,7 @@ def check(browser, path, results_path, shots):
     if shots:
         take_shots(browser, path, faults, shots)
     page.close()
-    print(f"{path}: {curves} charts, {hovers} hovers, {modes} modes, {controls} controls, {len(faults.list)} faults")
+    print(f"{path}: {curves} charts, {hovers} hovers, {bearings} bearings, {modes} modes, {controls} controls, {len(faults.list)} faults")
     for fault in faults.list:
         print(f"  {fault}")
     return len(faults.list)

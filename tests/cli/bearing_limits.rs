@@ -25,6 +25,53 @@ fn has(warnings: &[String], text: &str) -> bool {
     warnings.iter().any(|w| w.contains(text))
 }
 
+/// Quantities whose limit is exceeded, as listed.
+fn exceeded(document: &Value) -> Vec<String> {
+    let limits = document["bearings"][0]["limits"].as_array().unwrap();
+    let exceeded = limits.iter().filter(|limit| limit["state"] == "exceeded");
+    exceeded.map(|limit| limit["quantity"].as_str().unwrap().to_string()).collect()
+}
+
+/// The list of limits says "exceeded" exactly where there is a warning of it.
+#[test]
+fn listed_limits_and_warnings_agree() {
+    const OF: [(&str, &str); 9] = [
+        ("bearing-unloaded", "loaded balls"),
+        ("static-load", "static safety"),
+        ("static-load", "contact pressure"),
+        ("shoulder", "contact ellipse"),
+        ("film", "film ratio"),
+        ("minimum-load", "equivalent load"),
+        ("gyroscopic-sliding", "friction coefficient"),
+        ("contact-angle-lost", "mean contact angle"),
+        ("open-side", "balls on the open side"),
+    ];
+    let cases = [
+        ("6206", "", "0, -1000, 0 N", "3000 rpm"),
+        ("6206", "", "0, -30000, 0 N", "100 rpm"),
+        ("6206", "", "0, -2, 0 N", "12000 rpm"),
+        ("6206", "", "0, 0, 9000 N", "1000 rpm"),
+        ("7206B", "ball_inertia = \"none\"", "0, -1000, 20 N", "1500 rpm"),
+        ("7206B", "", "0, -300, 400 N", "9000 rpm"),
+    ];
+    let mut seen = std::collections::BTreeSet::new();
+    for (designation, keys, load, speed) in cases {
+        let flags = ["--load", load, "--constrain", "theta_x,theta_y", "--speed", speed, "--sweep", "speed"];
+        let (_, document) = found(&alone(designation, keys), "bearing", &flags);
+        let warned = |code: &str| document["warnings"].as_array().unwrap().iter().any(|w| w["code"] == code);
+        let listed = exceeded(&document);
+        for (code, _) in OF {
+            let is_listed = OF.iter().any(|(of, quantity)| {
+                *of == code && listed.iter().any(|listed| listed.starts_with(quantity))
+            });
+            assert_eq!(is_listed, warned(code), "{designation} {load} {speed}: {code}, {listed:?}");
+            seen.extend(is_listed.then_some(code));
+        }
+        assert!(document["bearings"][0]["limits"].as_array().unwrap().len() > 3);
+    }
+    assert!(seen.len() >= 3, "{seen:?}");
+}
+
 #[test]
 fn angular_contact_row_without_thrust_slides() {
     let of = |load: &str| {

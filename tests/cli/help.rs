@@ -1,6 +1,7 @@
 //! `help`: tables and keys of the model file, and commands.
 
 use crate::{json_of, output_of, rotordyn};
+use std::collections::BTreeSet;
 
 fn help(path: &str) -> String {
     output_of(rotordyn().args(["help", path]))
@@ -32,6 +33,34 @@ fn help_lists_tables_keys_and_one_key() {
         let text = if path.is_empty() { file.clone() } else { help(path) };
         assert!(text.lines().all(|line| line.chars().count() <= 118), "{text}");
     }
+}
+
+/// `help TABLE` lists every key that the reader accepts in it: by its name, or between the first and the last of several
+/// alike.
+#[test]
+fn every_key_is_listed_by_its_table() {
+    let all = rotordyn::model::keys::all();
+    let tables: BTreeSet<&str> =
+        all.iter().map(|key| key.path.rsplit_once('.').map_or("", |(table, _)| table)).collect();
+    let mut count = 0;
+    for table in tables {
+        let text = if table.is_empty() { output_of(rotordyn().arg("help")) } else { help(table) };
+        let words: BTreeSet<&str> = text
+            .lines()
+            .filter_map(|line| line.strip_prefix("  ").filter(|rest| !rest.starts_with(' ')))
+            .flat_map(|line| line.split("  ").take(1).flat_map(str::split_whitespace))
+            .collect();
+        let has_range = words.contains("...");
+        let members = all.iter().filter(|key| key.path.rsplit_once('.').map_or("", |(of, _)| of) == table);
+        for key in members {
+            // One of the 36 components of a matrix.
+            let component = key.name.len() == 4 && key.name.as_bytes()[1] == b'_';
+            let listed = words.contains(key.name) || component && has_range;
+            assert!(listed, "{} is not in `help {table}`:\n{text}", key.path);
+            count += 1;
+        }
+    }
+    assert_eq!(count, all.len());
 }
 
 #[test]

@@ -175,4 +175,50 @@ fn the_page_of_the_rig_is_small() {
         head["figures"].as_array().unwrap().iter().map(|f| f["caption"].as_str().unwrap()).collect();
     assert!(drawn.iter().any(|caption| caption.starts_with("Loads of the balls")), "{drawn:?}");
     assert!(text_of(&page).contains("Strongest line of"), "summary of the run-up");
+    // The model has no study of its bearings: they are computed for the page.
+    let bearings = head["bearings"].as_array().unwrap();
+    let names: Vec<&str> = bearings.iter().map(|bearing| bearing["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["A", "B"]);
+    for bearing in bearings {
+        assert!(bearing["stored"] == false && bearing["failed"].is_null(), "{bearing}");
+        let groups = &bearing["tree"]["groups"];
+        assert_eq!(groups["geometry"]["attributes"]["balls"], 9);
+        let balls = &groups["operating"]["groups"]["balls"]["groups"]["outer"]["sets"]["load"];
+        assert_eq!((&balls["shape"], &balls["unit"]), (&serde_json::json!([9]), &serde_json::json!("N")));
+        assert!(groups["sweep_load"]["sets"]["swept_value"]["count"].as_u64() > Some(10));
+        assert!(groups["limits"]["sets"]["state"]["values"].as_array().unwrap().len() > 3);
+        assert_eq!(bearing["classes"].as_array().unwrap().len(), 5);
+        assert!(bearing["sheet"].as_str().unwrap().contains("<svg"));
+    }
+}
+
+/// A bearing of its own study is shown as stored; one of an older file without geometry and limits says so.
+#[test]
+fn a_stored_bearing_is_shown_and_what_an_older_file_lacks_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("alone.toml");
+    let text = "[model]\nname = \"alone\"\n[bearing.\"60/22\"]\nmodel = \"ball\"\ndesignation = \"6205\"\n";
+    std::fs::write(&model, text).unwrap();
+    let out = folder.path().join("out");
+    output_of(rotordyn().arg("bearing").arg(&model).arg("--no-figures").arg("--out").arg(&out));
+    let page = || {
+        output_of(rotordyn().arg("report").arg(&out));
+        std::fs::read_to_string(out.join("report.html")).unwrap()
+    };
+    let bearing = |page: &str| head_of(page)["bearings"][0].clone();
+    let found = bearing(&page());
+    assert_eq!((&found["name"], &found["stored"]), (&"60/22".into(), &true.into()));
+    assert_eq!(found["absent"], serde_json::json!([]));
+    // 6205: bore 25 mm, CN from 5 to 20 um (ISO 5753-1).
+    let normal = &found["classes"][1];
+    assert_eq!(normal["name"], "CN");
+    assert!((normal["least"].as_f64().unwrap() - 5e-6).abs() < 1e-12, "{normal}");
+    let store = rotordyn::io::hdf5::Store::append(out.join("results.h5")).unwrap();
+    for part in ["geometry", "limits"] {
+        store.remove(&format!("/bearings/60/22/{part}")).unwrap();
+    }
+    drop(store);
+    let older = bearing(&page());
+    assert_eq!(older["absent"].as_array().unwrap().len(), 2, "{older}");
+    assert!(older["classes"].is_null());
 }

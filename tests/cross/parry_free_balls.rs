@@ -201,7 +201,8 @@ fn triangle_mesh_of_a_groove_is_not_accurate_enough() {
         worst = worst.max((exact.unwrap().approach.depth + found.dist).abs());
     }
     println!("mesh of {count} triangles: {worst:.1e} m");
-    assert!(worst > 1e-8 && worst < 1e-6, "{worst:e}");
+    assert!(worst > 1e-8, "{worst:e}");
+    agree::absolute("depth in a mesh of the race, off the closed form [m]", worst, 0.0, 1e-6);
 }
 
 /// rapier's broad and narrow phase find the pairs of the closed forms, none besides, at the same distance.

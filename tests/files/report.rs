@@ -48,6 +48,7 @@ fn all_figures_are_drawn_reproducibly() {
         "waterfall_B_ax",
         "orders_B_ax",
         "order_cuts_B_ax",
+        "bearing_B_sheet",
         "bearing_B_ball_loads",
         "bearing_B_contact_angles",
         "bearing_B_section",

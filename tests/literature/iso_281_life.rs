@@ -68,6 +68,11 @@ fn factor_f_c_of_table_2() {
             agree::absolute(format_args!("f_c at γ = {gamma}"), here, factor, 0.11);
         }
     }
+    let (gammas, factors): (Vec<f64>, Vec<f64>) = table.into_iter().unzip();
+    let ours = |gamma: &f64| rating(&bearing(1, 1.0, 1.0 / gamma, [0.52, 0.53], 0.0)).dynamic / 1.3;
+    let ours: Vec<f64> = gammas.iter().map(ours).collect();
+    let over = agree::Over { name: "D_w cos α/D_pw", unit: "1", values: &gammas };
+    agree::curves("f_c of table 2", "1", over, &ours, &factors, 2e-3);
 }
 
 #[test]

@@ -36,6 +36,10 @@ fn deviation(ours: &[Complex64], theirs: &[Complex64]) -> f64 {
     if floor == 0.0 { 0.0 } else { ours.iter().zip(theirs).fold(0.0, worst) }
 }
 
+fn norms(values: &[Complex64]) -> Vec<f64> {
+    values.iter().map(|value| value.norm()).collect()
+}
+
 #[test]
 fn unbalance_responses_agree() {
     for name in CASES {
@@ -49,7 +53,7 @@ fn unbalance_responses_agree() {
         let along = |row: &SparseRow| -> Vec<Complex64> {
             motions.iter().map(|motion| motion.amplitude_of(row, Quantity::Displacement)).collect()
         };
-        for probe in reference["probes"].as_array().unwrap() {
+        for (k, probe) in reference["probes"].as_array().unwrap().iter().enumerate() {
             let rows = assembly.anchor_rows(&Anchor::node(probe["node"].as_u64().unwrap() as usize));
             let (x, y) = (complex(probe, "x"), complex(probe, "y"));
             for (row, theirs) in [(&rows[0], &x), (&rows[1], &y)] {
@@ -61,6 +65,11 @@ fn unbalance_responses_agree() {
                     1.0,
                     1e-6,
                 );
+            }
+            if k == 0 {
+                let over = agree::Over { name: "shaft speed", unit: "rad/s", values: &speeds };
+                let what = format_args!("{name} node {}: amplitude in y", probe["node"]);
+                agree::curves(what, "m", over, &norms(&along(&rows[1])), &norms(&y), 1e-6);
             }
             let orbits: Vec<Orbit> =
                 along(&rows[0]).into_iter().zip(along(&rows[1])).map(|(x, y)| Orbit::new(x, y)).collect();
@@ -81,7 +90,7 @@ fn frequency_responses_agree() {
             let speed = number(&reference["speed"]);
             let system = LinearSystem::new(&assembly, &ross::tangents(&model, speed), speed).unwrap();
             let hz: Vec<f64> = numbers(&reference["omega"]).iter().map(|w| w / TAU).collect();
-            for pair in reference["pairs"].as_array().unwrap() {
+            for (k, pair) in reference["pairs"].as_array().unwrap().iter().enumerate() {
                 let row = |end: &str| -> SparseRow {
                     let node = Anchor::node(pair[end][0].as_u64().unwrap() as usize);
                     let axis = pair[end][1].as_str().unwrap();
@@ -95,6 +104,18 @@ fn frequency_responses_agree() {
                 let what =
                     format_args!("{name} at {speed:.0} rad/s: FRF {} to {}", pair["input"], pair["output"]);
                 agree::curve(what, worst, 1.0, 1e-6);
+                if k == 0 && speed > 0.0 {
+                    let over = agree::Over { name: "frequency", unit: "Hz", values: &hz };
+                    let what = format_args!("magnitude of the FRF of {name} at {speed:.0} rad/s");
+                    agree::curves(
+                        what,
+                        "m/N",
+                        over,
+                        &norms(&h.values[0][0]),
+                        &norms(&complex(pair, "")),
+                        1e-6,
+                    );
+                }
             }
         }
     }

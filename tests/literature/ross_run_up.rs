@@ -98,6 +98,13 @@ fn run_up_agrees_and_spin_up_forms_differ_little() {
         );
         // The same equations and integrator: round-off over 40 000 steps.
         agree::curve(format_args!("run-up of node {}", probe["node"]), off, 1.0, 1e-6);
+        let step = number(&case["dt"]) * number(&case["decimation"]);
+        let time: Vec<f64> = (0..reference[0].len()).map(|k| k as f64 * step).collect();
+        let over = agree::Over { name: "time", unit: "s", values: &time };
+        let radius =
+            |of: &[Vec<f64>; 2]| -> Vec<f64> { of[0].iter().zip(&of[1]).map(|(x, y)| x.hypot(*y)).collect() };
+        let what = format_args!("run-up of node {}: distance from the axis", probe["node"]);
+        agree::curves(what, "m", over, &radius(&theirs[p]), &radius(&reference), 1e-6);
         // ROSS's own value for dropping its terms.
         let dropped = number(&case["max_abs_diff_if_Ksdt_is_dropped"][probe["node"].to_string()]) / peak;
         agree::relative("what is left out without the spin-up terms, over the peak", left_out, dropped, 0.05);

@@ -62,13 +62,14 @@ fn loaded(row: &str, load: [f64; 5], cage_angle: f64) -> (BearingSolver, Bearing
 }
 
 /// Compares entries with the reference, relative to the size of their row and column.
+#[track_caller]
 fn same_matrix(found: &[[f64; 5]; 5], expected: &Value, tolerance: f64, what: &str) {
     let expected: Vec<Vec<f64>> = expected.as_array().unwrap().iter().map(numbers).collect();
     for a in 0..5 {
         for b in 0..5 {
             let size = (expected[a][a] * expected[b][b]).sqrt();
-            let error = (found[a][b] - expected[a][b]).abs() / size;
-            assert!(error < tolerance, "{what} K[{a}][{b}] = {} for {}", found[a][b], expected[a][b]);
+            let off = found[a][b] - expected[a][b];
+            agree::curve(format_args!("{what} N: K[{a}][{b}] over its size"), off, size, tolerance);
         }
     }
 }
@@ -131,6 +132,7 @@ fn orbital_scan_of_section_5_2() {
     let scan = &reference()["sec52_orbital_scan"];
     const ENTRIES: [[usize; 2]; 9] = [[0, 0], [1, 1], [2, 2], [3, 3], [4, 4], [0, 2], [0, 4], [1, 3], [2, 4]];
     for row in ROWS {
+        let [mut pitch, mut ours, mut theirs] = [const { Vec::new() }; 3];
         for line in scan["rows"][row].as_array().unwrap() {
             let line = numbers(line);
             let (_, found) =
@@ -154,7 +156,19 @@ fn orbital_scan_of_section_5_2() {
                     1e-9 * size,
                 );
             }
+            pitch.push(line[0]);
+            ours.push(found.stiffness[0][0]);
+            theirs.push(line[6]);
         }
+        let over = agree::Over { name: "cage angle", unit: "ball pitches", values: &pitch };
+        agree::curves(
+            format_args!("{row}: radial stiffness over the cage angle"),
+            "N/m",
+            over,
+            &ours,
+            &theirs,
+            1e-9,
+        );
     }
 }
 

@@ -223,6 +223,11 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
             ],
             ..Default::default()
         }),
+        Figure::Sheet(Sheet {
+            title: name.clone(),
+            note: name.clone(),
+            rows: vec![vec![svg::Svg::new(120.0, 80.0); 2]],
+        }),
         Figure::Orbits(Orbits {
             title: name.clone(),
             orbits: vec![Orbit {

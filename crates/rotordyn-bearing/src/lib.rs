@@ -49,8 +49,8 @@ pub use linear::{LinearBearing, LinearBearingRow, LinearElement};
 pub use model::{BearingElement, BearingModel, BearingSymbol, BeyondTable, CageStart, SpeedRange};
 pub use radial_ball::{RadialBallBearing, RadialElement};
 pub use rating::{
-    BallMotion, FrictionTorque, LimitCheck, MountedGeometry, ShoulderMargin, Verdict, friction, kinematics,
-    life, limits, shoulder, shoulder_margin,
+    BallMotion, FrictionTorque, LimitCheck, LimitState, MountedGeometry, ShoulderMargin, friction,
+    kinematics, life, limits, shoulder, shoulder_margin,
 };
 pub use reaction::{Reaction, Rotation, SiteTangent};
 

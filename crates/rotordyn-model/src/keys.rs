@@ -13,6 +13,7 @@ use crate::file::quantities::{SPACED, SpacedKeys, range_words};
 use crate::file::renamed::renamed_part;
 use rotordyn_units::NUMBER;
 use rotordyn_units::names::nearest;
+use serde_json::{Value, json};
 
 /// A key as plain text.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +58,28 @@ impl KeyDescription {
                 .join(", ")
         };
         self.groups.iter().map(both).collect()
+    }
+}
+
+/// What `rotordyn help --json` says of a key.
+impl From<&KeyDescription> for Value {
+    fn from(key: &KeyDescription) -> Self {
+        json!({
+            "path": key.path,
+            "name": key.name,
+            "kind": key.kind.name(),
+            "value": key.value,
+            "unit": key.unit,
+            "range": key.range,
+            "words": key.words,
+            "required": key.required,
+            "default": key.default,
+            "absent": key.absent,
+            "conditions": key.conditions(),
+            "meaning": key.meaning,
+            "example": key.example,
+            "members": key.members,
+        })
     }
 }
 
@@ -112,6 +135,18 @@ pub struct Found {
     pub members: Vec<KeyDescription>,
     /// The path as asked for, if a part of it has been renamed.
     pub former: Option<String>,
+}
+
+/// What `rotordyn help --json` says of a path.
+impl From<&Found> for Value {
+    fn from(found: &Found) -> Self {
+        json!({
+            "command": "help",
+            "path": found.path,
+            "keys": found.keys.iter().map(Self::from).collect::<Vec<_>>(),
+            "members": found.members.iter().map(Self::from).collect::<Vec<_>>(),
+        })
+    }
 }
 
 /// A path that is not declared.

@@ -165,7 +165,7 @@ impl Figure {
             Figure::ModeShapes(data) => mode_shape::draw(data),
             Figure::Bode(data) => bode::draw(data),
             Figure::Polar(data) => polar::draw(data),
-            Figure::Sheet(data) => sheet::draw(data)?,
+            Figure::Sheet(data) => sheet::draw(data),
             Figure::Orbits(data) => orbit::draw(data),
             Figure::PhasePlanes(data) => phase_plane::draw(data),
             Figure::Bifurcation(data) => bifurcation::draw(data),

@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 const MOST_COMPUTED: usize = 12;
 /// Groups of a stored bearing with what older files do not have.
 const PARTS: [(&str, &str); 2] =
-    [("geometry", "the internal geometry"), ("limits/verdict", "the limits with their figures")];
+    [("geometry", "the internal geometry"), ("limits/state", "the limits with their figures")];
 
 /// An entry for each ball bearing: its name, whether it is stored, else its tree and drawing or why there is none, what an
 /// older file does not have of it, and its clearance classes.

@@ -3,7 +3,7 @@
 use crate::chapters::{Places, prepare, write_prepared};
 use crate::console::Console;
 use crate::reference::{self, Chapter};
-use crate::{Arguments, links, speed, validation};
+use crate::{Arguments, links, same_bytes, speed, validation};
 use mdbook_core::config::Config;
 use mdbook_driver::MDBook;
 use serde_json::Value;
@@ -14,11 +14,31 @@ use std::process::Command;
 /// The line of `SUMMARY.md` below which the chapters of the model file's tables stand.
 const MODEL_LINE: &str = "  - [Tables](reference/model.md)";
 
+/// Builds the book, twice if asked for, and tells what was done.
+///
+/// # Errors
+/// As of one build; two builds that differ.
+pub fn build(arguments: &Arguments) -> Result<String, String> {
+    let summary = build_once(arguments)?;
+    if !arguments.twice {
+        return Ok(summary);
+    }
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let html = absolute(&root, &arguments.out).join("html");
+    let first = same_bytes::digests(&html)?;
+    build_once(arguments)?;
+    let differ = same_bytes::differences(&first, &same_bytes::digests(&html)?);
+    match differ.is_empty() {
+        true => Ok(format!("{summary}, {} files the same in a second build", first.len())),
+        false => Err(format!("a second build has other bytes in:\n{}", differ.join("\n"))),
+    }
+}
+
 /// Builds the book, and tells what was done.
 ///
 /// # Errors
 /// A command of the book whose output is not the one shown, a generated chapter that fails, a dead link.
-pub fn build(arguments: &Arguments) -> Result<String, String> {
+fn build_once(arguments: &Arguments) -> Result<String, String> {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..");
     let root = root.canonicalize().map_err(|error| format!("{}: {error}", root.display()))?;
     let program = absolute(&root, &arguments.program);
@@ -46,18 +66,15 @@ pub fn build(arguments: &Arguments) -> Result<String, String> {
             validation::LEAST_ROWS
         ));
     }
-    for (name, path) in &rows.pictures {
-        let target = places.prepared.join("pictures").join(name);
-        fs::create_dir_all(places.prepared.join("pictures"))
-            .map_err(|e| format!("{}: {e}", target.display()))?;
-        fs::copy(path, &target).map_err(|error| format!("{}: {error}", target.display()))?;
+    for (name, svg) in &rows.pictures {
+        write_prepared(&format!("pictures/{name}"), svg, &places)?;
     }
     let validation =
         Chapter { title: "Validation".into(), path: "validation.md".into(), text: rows.text.clone() };
     let speed = Chapter {
         title: "Speed".into(),
         path: "speed.md".into(),
-        text: speed::chapter(&absolute(&root, &arguments.benches))?,
+        text: speed::chapter(fs::read_to_string(root.join("benches/times.json")).ok().as_deref())?,
     };
     for chapter in generated.iter().chain([&validation, &speed]) {
         write_prepared(&chapter.path, &chapter.text, &places)?;
@@ -89,7 +106,11 @@ pub fn build(arguments: &Arguments) -> Result<String, String> {
     if !dead.is_empty() {
         return Err(format!("links that lead nowhere:\n{}", dead.join("\n")));
     }
-    let counts = format!("{commands} commands run, {} rows of validation, {links} links", rows.rows);
+    let counts = format!(
+        "{commands} commands run, {} rows and {} curves of validation, {links} links",
+        rows.rows,
+        rows.pictures.len()
+    );
     let written =
         if changed.is_empty() { String::new() } else { format!(", {} outputs rewritten", changed.len()) };
     Ok(format!("{}: {counts}{written}", out.join("html/index.html").display()))

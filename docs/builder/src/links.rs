@@ -65,8 +65,11 @@ fn attributes<'h>(html: &'h str, names: &'h [&str]) -> impl Iterator<Item = &'h 
     names.iter().flat_map(move |name| {
         html.match_indices(*name).filter_map(move |(at, _)| {
             let before = html[..at].chars().next_back();
-            let value = html[at + name.len()..].strip_prefix("=\"")?;
-            before.is_some_and(char::is_whitespace).then(|| value.split('"').next().unwrap_or_default())
+            let value = html[at + name.len()..].trim_start().strip_prefix('=')?.trim_start();
+            let quote = value.chars().next().filter(|c| ['"', '\''].contains(c))?;
+            before
+                .is_some_and(char::is_whitespace)
+                .then(|| value[1..].split(quote).next().unwrap_or_default())
         })
     })
 }
@@ -115,7 +118,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let root = folder.path();
         fs::create_dir(root.join("sub")).unwrap();
-        fs::write(root.join("a.html"), "<a href=\"sub/b.html#here\">b</a> <a href=\"#no\">n</a>").unwrap();
+        fs::write(root.join("a.html"), "<a href=\"sub/b.html#here\">b</a> <a href = '#no'>n</a>").unwrap();
         let page = "<h1 id=\"here\">h</h1><img src=\"../gone.svg\"><a href=\"../a.html\">a</a><a href=\"https://x.y/\">x</a>";
         fs::write(root.join("sub/b.html"), page).unwrap();
         let (dead, count) = dead(root).unwrap();

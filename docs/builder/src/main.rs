@@ -4,9 +4,11 @@
 mod book;
 mod chapters;
 mod console;
+mod curves;
 mod links;
 mod math;
 mod reference;
+mod same_bytes;
 mod speed;
 mod validation;
 
@@ -30,9 +32,9 @@ pub struct Arguments {
     /// Fail if the validation chapter has fewer rows than a whole run of the tests gives
     #[arg(long)]
     complete: bool,
-    /// Folder with the estimates of `cargo bench`
-    #[arg(long, default_value = "target/criterion")]
-    benches: PathBuf,
+    /// Build twice, and fail if the bytes of a page or picture differ
+    #[arg(long)]
+    twice: bool,
     /// Folder of the built book; its pages are in html/
     #[arg(long, default_value = "target/book")]
     out: PathBuf,

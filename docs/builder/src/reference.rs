@@ -248,3 +248,73 @@ pub fn warnings_chapter(ask: Ask) -> Result<Chapter, String> {
     }
     Ok(Chapter { title: "Warnings".into(), path: "reference/warnings.md".into(), text: out })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rotordyn_model::keys;
+    use rotordyn_model::schema::json_schema;
+    use std::collections::BTreeSet;
+
+    /// What `rotordyn help PATH --json` prints, which is this document.
+    fn help(path: &str) -> Result<Value, String> {
+        keys::find(path).map(|found| Value::from(&found)).map_err(|unknown| unknown.to_string())
+    }
+
+    /// Paths of keys in a schema: of tables, of items of named tables and of lists, in all their forms.
+    fn paths_of_schema(schema: &Value, path: &str, out: &mut BTreeSet<String>) {
+        for form in list(schema, "anyOf") {
+            paths_of_schema(form, path, out);
+        }
+        for inner in ["additionalProperties", "items"] {
+            if schema[inner].is_object() {
+                paths_of_schema(&schema[inner], path, out);
+            }
+        }
+        for (name, of) in schema["properties"].as_object().into_iter().flatten() {
+            let path = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
+            paths_of_schema(of, &path, out);
+            out.insert(path);
+        }
+    }
+
+    /// Paths of the anchors of the generated chapters.
+    fn paths_of_book(chapters: &[Chapter]) -> BTreeSet<String> {
+        let anchors = chapters.iter().flat_map(|of| of.text.split("<a id=\"").skip(1));
+        anchors.filter_map(|rest| rest.split('"').next()).map(String::from).collect()
+    }
+
+    /// Paths of the keys that `help` lists, from the top downwards.
+    fn paths_of_help(path: &str, out: &mut BTreeSet<String>) {
+        let found = help(path).unwrap();
+        for key in list(&found, "members") {
+            let inner = text_of(key, "path");
+            if out.insert(inner.into()) && is_table(key) {
+                paths_of_help(inner, out);
+            }
+        }
+    }
+
+    /// One declaration: the keys that the reader accepts are those of `help`, of the schema and of the book.
+    #[test]
+    fn every_key_is_in_help_schema_and_book() {
+        let read: BTreeSet<String> = keys::all().into_iter().map(|key| key.path).collect();
+        assert!(read.len() > 350, "{} keys", read.len());
+        let (mut in_help, mut in_schema) = (BTreeSet::new(), BTreeSet::new());
+        paths_of_help("", &mut in_help);
+        paths_of_schema(&json_schema(), "", &mut in_schema);
+        let chapters = model_chapters(&help).unwrap();
+        let in_book = paths_of_book(&chapters);
+        for (place, found) in [("help", &in_help), ("schema", &in_schema), ("book", &in_book)] {
+            let missing: Vec<&String> = read.difference(found).collect();
+            let more: Vec<&String> = found.difference(&read).collect();
+            assert!(missing.is_empty(), "not in {place}: {missing:?}");
+            assert!(more.is_empty(), "in {place}, but not read: {more:?}");
+        }
+        // Each row of the book has the meaning of its key.
+        let text: String = chapters.iter().map(|chapter| chapter.text.as_str()).collect();
+        for key in keys::all() {
+            assert!(text.contains(&plain(key.meaning)), "{}: {}", key.path, key.meaning);
+        }
+    }
+}

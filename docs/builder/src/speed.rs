@@ -1,66 +1,40 @@
-//! The speed chapter, from the estimates that `cargo bench` leaves.
+//! The speed chapter, from the times that `benches/times.py` collects of `cargo bench` and that are kept with the sources.
 
 use serde_json::Value;
 use std::fmt::Write;
-use std::fs;
-use std::path::Path;
 
-/// A measured time: name of the benchmark, mean and half of the 95 % interval \[s\].
-type Row = (String, f64, f64);
-
-/// Table of all benchmarks; words on how to get one without them.
+/// Table of all benchmarks, with the machine and the date; `None` without kept times.
 ///
 /// # Errors
-/// An estimate that cannot be read.
-pub fn chapter(criterion: &Path) -> Result<String, String> {
-    let mut rows = Vec::new();
-    if criterion.is_dir() {
-        collect(criterion, criterion, &mut rows)?;
-    }
-    rows.sort_by(|a, b| a.0.cmp(&b.0));
+/// A text that is not of `benches/times.py`.
+pub fn chapter(times: Option<&str>) -> Result<String, String> {
     let mut out = String::from(
-        "# Speed\n\nTimes of the benchmarks in `benches/` on the machine that built this book, as criterion measured them \
-         (`cargo bench`, then build the book). They say what a change costs; another machine has other times.\n\n",
+        "# Speed\n\nTimes of the benchmarks in `benches/`, as criterion measured them (`cargo bench`, then \
+         `python3 benches/times.py`). They say what a change costs; another machine has other times.\n\n",
     );
-    if rows.is_empty() {
-        out += "This copy of the book was built without measured times.\n";
+    let Some(times) = times else {
+        out += "No times are kept with this copy of the sources.\n";
         return Ok(out);
-    }
+    };
+    let value: Value = serde_json::from_str(times).map_err(|error| format!("benches/times.json: {error}"))?;
+    let told = |what: &str| format!("benches/times.json has no {what}");
+    let text = |name: &str| value[name].as_str().ok_or_else(|| told(name));
+    let _ = write!(
+        out,
+        "Measured on {} at commit `{}`, {}.\n\n",
+        text("date")?,
+        text("commit")?,
+        crate::reference::plain(text("machine")?)
+    );
     out += "| benchmark | mean | ± (95 %) |\n|---|---:|---:|\n";
-    for (name, mean, half) in rows {
-        let _ =
-            writeln!(out, "| {} | {} | {} |", crate::reference::plain(&name), seconds(mean), seconds(half));
+    let rows = value["times"].as_array().filter(|rows| !rows.is_empty()).ok_or_else(|| told("times"))?;
+    for row in rows {
+        let number = |name: &str| row[name].as_f64().ok_or_else(|| told(name));
+        let name = row["name"].as_str().ok_or_else(|| told("name"))?;
+        let name = crate::reference::plain(name);
+        let _ = writeln!(out, "| {name} | {} | {} |", seconds(number("mean_s")?), seconds(number("half_s")?));
     }
     Ok(out)
-}
-
-fn collect(root: &Path, folder: &Path, rows: &mut Vec<Row>) -> Result<(), String> {
-    let told = |error: std::io::Error| format!("{}: {error}", folder.display());
-    for entry in fs::read_dir(folder).map_err(told)? {
-        let path = entry.map_err(told)?.path();
-        if !path.is_dir() {
-            continue;
-        }
-        let estimates = path.join("estimates.json");
-        if path.file_name().is_some_and(|name| name == "new") && estimates.is_file() {
-            rows.push(row(root, folder, &estimates)?);
-        } else {
-            collect(root, &path, rows)?;
-        }
-    }
-    Ok(())
-}
-
-fn row(root: &Path, folder: &Path, estimates: &Path) -> Result<Row, String> {
-    let told = |error: &dyn std::fmt::Display| format!("{}: {error}", estimates.display());
-    let text = fs::read_to_string(estimates).map_err(|error| told(&error))?;
-    let value: Value = serde_json::from_str(&text).map_err(|error| told(&error))?;
-    let number = |of: &Value| of.as_f64().ok_or_else(|| told(&"no mean with its interval"));
-    let mean = &value["mean"];
-    let interval = &mean["confidence_interval"];
-    let half = 0.5 * (number(&interval["upper_bound"])? - number(&interval["lower_bound"])?);
-    let name = folder.strip_prefix(root).unwrap_or(folder).display().to_string();
-    Ok((name, 1e-9 * number(&mean["point_estimate"])?, 1e-9 * half))
 }
 
 /// A time with three digits.
@@ -87,16 +61,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn estimates_become_rows() {
-        let folder = tempfile::tempdir().unwrap();
-        assert!(chapter(folder.path()).unwrap().contains("without measured times"));
-        let new = folder.path().join("run_up/rig/new");
-        fs::create_dir_all(&new).unwrap();
-        let text = r#"{"mean":{"confidence_interval":{"lower_bound":1.4e7,"upper_bound":1.6e7},"point_estimate":1.5e7}}"#;
-        fs::write(new.join("estimates.json"), text).unwrap();
-        let got = chapter(folder.path()).unwrap();
+    fn times_become_rows() {
+        let times = |rows: &str| {
+            format!(
+                "{{\"date\":\"2026-01-02\",\"commit\":\"abc\",\"machine\":\"2 cores\",\"times\":[{rows}]}}"
+            )
+        };
+        let row = "{\"name\":\"run_up/rig\",\"mean_s\":0.015,\"half_s\":0.001}";
+        let got = chapter(Some(&times(row))).unwrap();
+        assert!(got.contains("Measured on 2026-01-02 at commit `abc`, 2 cores."), "{got}");
         assert!(got.contains("| run\\_up/rig | 15.0 ms | 1.00 ms |"), "{got}");
-        fs::write(new.join("estimates.json"), "{}").unwrap();
-        assert!(chapter(folder.path()).unwrap_err().contains("no mean"));
+        assert!(chapter(Some(&times(""))).unwrap_err().contains("times"));
+        assert!(chapter(Some(&times("{\"name\":\"a\"}"))).unwrap_err().contains("mean_s"));
+        assert!(chapter(Some("{}")).is_err());
+        assert!(chapter(None).unwrap().contains("No times"));
     }
 }

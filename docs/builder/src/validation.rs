@@ -1,7 +1,7 @@
 //! The validation chapter, from the rows that tests write where `ROTORDYN_VALIDATION` names a folder.
 //!
-//! `tests/common/reference.rs` writes them: one line of JSON for each comparison with a reference, one file for each
-//! file of tests, and curves as pictures.
+//! `tests/common/agree.rs` writes them: one line of JSON for each comparison with a reference, one file for each file of
+//! tests, and one for its curves.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -9,6 +9,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::curves::Compared;
 use crate::reference::plain;
 
 /// More comparisons by one statement of a test than these are shown as one row: the worst.
@@ -38,8 +39,8 @@ pub struct Validation {
     pub rows: usize,
     /// Comparisons that the tests made.
     pub comparisons: usize,
-    /// Pictures of curves: name in the chapter's folder, and where it is.
-    pub pictures: Vec<(String, PathBuf)>,
+    /// Figures of curves: name in the folder of pictures, SVG document.
+    pub pictures: Vec<(String, String)>,
 }
 
 /// Folders of tests with their headings, in the order of the chapter.
@@ -62,8 +63,7 @@ const PARTS: [(&str, &str, &str); 6] = [
 /// # Errors
 /// A row or a file of tests that cannot be read.
 pub fn chapter(rows_folder: &Path, root: &Path) -> Result<Validation, String> {
-    let mut pictures = Vec::new();
-    let files = read(rows_folder, &mut pictures)?;
+    let (files, curves) = read(rows_folder)?;
     let mut out = Validation { text: String::new(), rows: 0, comparisons: 0, pictures: Vec::new() };
     let mut body = String::new();
     for (folder, title, about) in PARTS {
@@ -86,18 +86,18 @@ pub fn chapter(rows_folder: &Path, root: &Path) -> Result<Validation, String> {
                     body += &table_row(&source.test(line), &quantity, row);
                 }
             }
-            for (picture, path) in pictures.iter().filter(|(picture, _)| picture.starts_with(&key(file))) {
-                let caption = fs::read_to_string(path.with_extension("txt")).unwrap_or_default();
-                let _ =
-                    write!(body, "\n![{}](pictures/{picture})\n\n*{}*\n", plain(&caption), plain(&caption));
-                out.pictures.push((picture.clone(), path.clone()));
+            for (k, curve) in curves.get(&key(file)).into_iter().flatten().enumerate() {
+                let picture = format!("{}.{k}.svg", key(file));
+                let caption = format!("{}: {}", source.test(curve.line), curve.quantity);
+                let _ = write!(body, "\n![{}](pictures/{picture})\n", plain(&caption));
+                out.pictures.push((picture, curve.svg()?));
             }
         }
     }
     out.text = format!(
         "# Validation\n\nWritten by the tests themselves: each comparison with a reference asserts and leaves a row here. \
          An error is relative to the reference unless *abs.* stands behind it, and has one digit; where one statement \
-         compares many values, the row shows the worst of them.\n\n\
+         compares many values, the row shows the worst of them. Below the tables curves lie over their references.\n\n\
          {} rows for {} comparisons.\n{body}",
         out.rows, out.comparisons
     );
@@ -133,38 +133,46 @@ fn key(file: &str) -> String {
     file.trim_end_matches(".rs").replace('/', ".")
 }
 
-/// Rows of every file, and the pictures beside them.
-fn read(folder: &Path, pictures: &mut Vec<(String, PathBuf)>) -> Result<BTreeMap<String, Vec<Row>>, String> {
-    let mut out: BTreeMap<String, Vec<Row>> = BTreeMap::new();
+/// Rows of every file by its path, curves of every file by its key, both in an order that does not depend on that of the
+/// tests.
+type Read = (BTreeMap<String, Vec<Row>>, BTreeMap<String, Vec<Compared>>);
+
+fn read(folder: &Path) -> Result<Read, String> {
+    let (mut rows, mut curves): Read = Default::default();
     if !folder.is_dir() {
-        return Ok(out);
+        return Ok((rows, curves));
     }
     let told = |error: std::io::Error| format!("{}: {error}", folder.display());
-    let mut paths = Vec::new();
+    let mut paths: Vec<PathBuf> = Vec::new();
     for entry in fs::read_dir(folder).map_err(told)? {
         paths.push(entry.map_err(told)?.path());
     }
     paths.sort();
     for path in paths {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if name.ends_with(".svg") {
-            pictures.push((name, path));
+        let text = || fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()));
+        let wrong = |line: &str| format!("{}: not of a test: {line}", path.display());
+        if let Some(key) = name.strip_suffix(".curves") {
+            let found: Option<Vec<Compared>> = text()?.lines().map(Compared::read).collect();
+            curves.insert(key.into(), found.ok_or_else(|| wrong("a curve"))?);
         } else if name.ends_with(".jsonl") {
-            let text = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
-            for line in text.lines() {
-                let (file, row) = row(line).ok_or_else(|| format!("{}: no row: {line}", path.display()))?;
-                out.entry(file).or_default().push(row);
+            for line in text()?.lines() {
+                let (file, row) = row(line).ok_or_else(|| wrong(line))?;
+                rows.entry(file).or_default().push(row);
             }
         }
     }
-    for rows in out.values_mut() {
+    for rows in rows.values_mut() {
         // Tests run in any order, and some compare in parallel.
         rows.sort_by(|a, b| {
             let order = a.line.cmp(&b.line).then_with(|| a.quantity.cmp(&b.quantity));
             order.then_with(|| a.reference.total_cmp(&b.reference)).then_with(|| a.error.total_cmp(&b.error))
         });
     }
-    Ok(out)
+    for curves in curves.values_mut() {
+        curves.sort_by(|a, b| a.line.cmp(&b.line).then_with(|| a.quantity.cmp(&b.quantity)));
+    }
+    Ok((rows, curves))
 }
 
 fn row(line: &str) -> Option<(String, Row)> {
@@ -307,6 +315,24 @@ mod tests {
         assert!(got.text.contains("### Book 1970\n\nA book of 1970: values."), "{}", got.text);
         assert!(got.text.contains("| first frequency | f\\|1 | 10 | 10.001 | 1e-4 | 1e-3 |"), "{}", got.text);
         assert!(got.text.contains("K\\[8\\] (worst of 9)"), "{}", got.text);
+        // The order in which tests run changes nothing, nor does the last digit of round-off.
+        let lines = format!("{}{}", row(6, "f|1", 1e-4), many);
+        let turned: String = lines.lines().rev().map(|line| format!("{line}\n")).collect();
+        let shifted = turned.replace("\"error\":0.0001,", "\"error\":0.00010000000000003,");
+        assert!(shifted != turned);
+        fs::write(rows.join("tests.literature.book_1970.jsonl"), shifted).unwrap();
+        assert_eq!(chapter(&rows, root).unwrap().text, got.text);
+        let curve = |of: &str| {
+            format!(
+                "{{\"line\":6,\"quantity\":\"{of}\",\"unit\":\"m\",\"over\":\"t\",\"over_unit\":\"s\",\"x\":[0,1],\"ours\":[1,2],\
+                 \"reference\":[1,2]}}\n"
+            )
+        };
+        fs::write(rows.join("tests.literature.book_1970.curves"), curve("b") + &curve("a")).unwrap();
+        let drawn = chapter(&rows, root).unwrap();
+        assert_eq!(drawn.pictures.len(), 2);
+        let picture = "![first frequency: a](pictures/tests.literature.book_1970.0.svg)";
+        assert!(drawn.text.contains(picture), "{}", drawn.text);
         fs::write(rows.join("broken.jsonl"), "{}\n").unwrap();
         assert!(chapter(&rows, root).unwrap_err().contains("broken.jsonl"));
     }

@@ -11,7 +11,7 @@ pub const GREASE_SPEED_PARAMETER: f64 = 5e5;
 
 /// What a figure says beside its limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Verdict {
+pub enum LimitState {
     Within,
     /// An assumption of the model fails, or the bearing is misused: there is a warning.
     Exceeded,
@@ -19,7 +19,7 @@ pub enum Verdict {
     BeyondGuide,
 }
 
-impl Verdict {
+impl LimitState {
     pub fn name(self) -> &'static str {
         match self {
             Self::Within => "within",
@@ -38,7 +38,7 @@ pub struct LimitCheck {
     pub limit: f64,
     pub is_least: bool,
     pub unit: String,
-    pub verdict: Verdict,
+    pub state: LimitState,
     /// What the limit says.
     pub says: String,
 }
@@ -55,7 +55,7 @@ fn check(quantity: &str, [value, limit]: [f64; 2], is_least: bool, unit: &str, s
         limit,
         is_least,
         unit: unit.into(),
-        verdict: if holds { Verdict::Within } else { Verdict::Exceeded },
+        state: if holds { LimitState::Within } else { LimitState::Exceeded },
         says: says.into(),
     }
 }
@@ -74,8 +74,8 @@ impl BearingLoad<'_> {
             "mm/min",
             "makers' guide for grease in deep groove ball bearings; oil, ceramic balls and light series allow more",
         );
-        if grease.verdict == Verdict::Exceeded {
-            grease.verdict = Verdict::BeyondGuide;
+        if grease.state == LimitState::Exceeded {
+            grease.state = LimitState::BeyondGuide;
         }
         let balls = check(
             "loaded balls",

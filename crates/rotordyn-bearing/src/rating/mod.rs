@@ -10,7 +10,7 @@ pub mod shoulder;
 
 pub use friction::FrictionTorque;
 pub use kinematics::{BallMotion, MountedGeometry};
-pub use limit_checks::{LimitCheck, Verdict};
+pub use limit_checks::{LimitCheck, LimitState};
 pub use load_rating::{
     EquivalentLoad, LARGEST_RADIAL_ANGLE, LoadRating, STANDARD_OSCULATION, STATIC_CONTACT_STRESS,
     equivalent_load, static_equivalent_load, static_factor,

@@ -67,7 +67,7 @@ fn newton_euler(bearing: &BallBearing, ball: &BallLoad, control: Control, rotati
     };
     let slip = race.cross(&centre) - cage.cross(&centre);
     let relative = arm.cross(&slip) / arm.norm_squared();
-    assert!((relative.cross(&arm) - slip).norm() < 1e-12 * slip.norm());
+    agree::curve("slip at the controlling race", (relative.cross(&arm) - slip).norm(), slip.norm(), 1e-12);
     let spin = race + relative;
 
     // Steady motion in axes rotating with the cage: dL/dt = ω_c × L; no moment along e_t from the cage
@@ -75,7 +75,7 @@ fn newton_euler(bearing: &BallBearing, ball: &BallLoad, control: Control, rotati
     let rate = cage.cross(&(spin * inertia));
     // Friction force F at `arm`, tangential, in the axial plane: arm × F = rate.
     let friction = rate.cross(&arm) / arm.norm_squared();
-    assert!((arm.cross(&friction) - rate).norm() < 1e-12 * rate.norm());
+    agree::curve("moment of the friction force", (arm.cross(&friction) - rate).norm(), rate.norm(), 1e-12);
 
     let (mut by_inner, mut by_outer) = (inner * ball.load, -outer * ball.outer_load);
     match control {

@@ -141,7 +141,7 @@ fn limit_columns(limits: &[LimitCheck]) -> Rows<'static, '_, LimitCheck> {
         .number("limit", "", |l| l.limit)
         .text("side", |l| if l.is_least { "at least" } else { "at most" })
         .text("unit", |l| &l.unit)
-        .text("verdict", |l| l.verdict.name())
+        .text("state", |l| l.state.name())
         .text("says", |l| &l.says)
 }
 
