@@ -17,6 +17,16 @@ const COMPARABLE: f64 = -0.7;
 /// Amplitude of a line between a part's harmonics, over the highest of these, that counts fully for a slower family.
 const FRACTION_SHARE: f64 = 0.25;
 
+/// Part of the frequency of a line on either side of it over which power is summed, and the least and most bins of it.
+const ABOUT: f64 = 0.012;
+const ABOUT_BINS: (usize, usize) = (2, 40);
+/// Σ A² over the bins of a pure line behind a Hann window, over its highest A².
+const PURE_LINE: f64 = 1.5;
+/// ln of the power about a line over that of a pure one up to which slip may have widened it, and by how much above it
+/// is counted.
+const WIDENED: f64 = 1.0;
+const SURROUNDINGS_RANGE: f64 = 2.0;
+
 /// Amplitude of a shaft order, over the part's highest line, that counts fully.
 const ORDER_SHARE: f64 = 1.0 / 3.0;
 
@@ -97,7 +107,20 @@ pub(super) fn features(of: &Contenders, spectrum: &LineSpectrum, known: &KnownLi
     out[FEATURES.shaft_orders] = shaft_orders(fit, spectrum, known);
     let stands = |l: &&FittedLine| l.harmonic <= counted && l.own && l.evidence > PRESENT;
     out[FEATURES.standing] = fit.main_lines().filter(stands).count() as f64 / counted as f64;
+    out[FEATURES.surroundings] = surroundings(fit, spectrum);
     out
+}
+
+/// ln of Σ (A² − noise) over ± 1.2 % of the strongest own harmonic over 3/2 of its A², less 1, 0 to 2; 0 without one.
+fn surroundings(fit: &PartFit, spectrum: &LineSpectrum) -> f64 {
+    let own = fit.main_lines().filter(|l| l.own && l.stands());
+    let Some(line) = own.max_by(|a, b| a.evidence.total_cmp(&b.evidence)) else { return 0.0 };
+    let middle = (line.frequency / spectrum.step).round() as usize;
+    let reach = ((ABOUT * line.frequency / spectrum.step) as usize).clamp(ABOUT_BINS.0, ABOUT_BINS.1);
+    let bins = middle.saturating_sub(reach).max(1)..(middle + reach + 1).min(spectrum.amplitude.len());
+    let power: f64 = bins.map(|k| spectrum.amplitude[k].powi(2) - spectrum.noise_power(k)).sum();
+    let ratio = power / (PURE_LINE * line.amplitude.powi(2));
+    (ratio.max(1.0).ln() - WIDENED).clamp(0.0, SURROUNDINGS_RANGE)
 }
 
 /// Mean of w² over shaft orders 4 to 16 that are no side bands of the part: a shaft's own impacts have them all.

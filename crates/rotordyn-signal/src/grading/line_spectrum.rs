@@ -78,6 +78,11 @@ impl LineSpectrum {
         LN_2 * (amplitude / self.background[bin.min(self.background.len() - 1)]).powi(2)
     }
 
+    /// Mean power of the noise in a bin, m²/ln 2.
+    pub fn noise_power(&self, bin: usize) -> f64 {
+        self.background[bin].powi(2) / LN_2
+    }
+
     fn higher_of_two(&self, evidence: &[f64], frequency: f64) -> f64 {
         let place = frequency / self.step;
         if place < 2.0 || place >= (evidence.len() - 2) as f64 {

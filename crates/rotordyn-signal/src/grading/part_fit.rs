@@ -28,6 +28,13 @@ pub(super) struct FittedLine {
     pub own: bool,
 }
 
+impl FittedLine {
+    /// Whether it counts as present.
+    pub fn stands(&self) -> bool {
+        self.evidence + NOISE_EVIDENCE > PRESENT
+    }
+}
+
 /// A part's family at the rate that fits best.
 #[derive(Clone, Debug)]
 pub(super) struct PartFit {
@@ -169,10 +176,8 @@ impl PartFit {
 
     /// Evidence of the lines that nothing else explains; 0 without one of the first two harmonics.
     pub fn own_evidence(&self) -> f64 {
-        let first =
-            self.main_lines().any(|l| l.own && l.harmonic <= 2 && l.evidence + NOISE_EVIDENCE > PRESENT);
-        let stands =
-            |l: &&FittedLine| l.own && l.modulation.is_some() && l.evidence + NOISE_EVIDENCE > PRESENT;
+        let first = self.main_lines().any(|l| l.own && l.harmonic <= 2 && l.stands());
+        let stands = |l: &&FittedLine| l.own && l.modulation.is_some() && l.stands();
         if first || self.lines.iter().filter(stands).count() >= 3 {
             self.lines.iter().filter(|l| l.own).map(|l| l.evidence).sum()
         } else {

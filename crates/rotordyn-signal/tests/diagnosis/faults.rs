@@ -46,6 +46,15 @@ fn draw_defects(random: &mut Random, balls: usize) -> Vec<(f64, f64)> {
     (0..count).map(defect).collect()
 }
 
+/// How varied the faults of a set are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Variety {
+    /// One defect, slip, jitter, load zone; no modulation by unbalance or unequal balls.
+    Basic,
+    /// As [`fault`] describes.
+    Full,
+}
+
 /// Response to the impacts of one damaged part.
 ///
 /// The cage slips by up to 2 % of its speed in either direction, which moves BPFO = Z FTF and
@@ -61,10 +70,12 @@ pub fn fault(
     rates: &DefectFrequencies,
     balls: usize,
     clock: &Clock,
+    variety: Variety,
 ) -> Vec<f64> {
+    let basic = variety == Variety::Basic;
     let slip = 0.02 * random.unit() * random.sign();
     let spin_slip = 0.02 * random.unit() * random.sign();
-    let regular = random.chance(0.2);
+    let regular = random.chance(0.2) && !basic;
     let jitter = if regular { 0.0 } else { 0.02 * random.unit() };
     let extent = random.range(0.3, 1.5);
     let cage = rates.cage * (1.0 + slip);
@@ -75,9 +86,14 @@ pub fn fault(
         BearingPart::Cage => cage,
     };
     let start = random.phase();
-    let limit = if random.chance(0.35) { 0.9 } else { 0.2 };
+    let limit = match random.chance(0.35) {
+        _ if basic => 0.0,
+        true => 0.9,
+        false => 0.2,
+    };
     let by_shaft = [1.0, 2.0, 3.0].map(|n| (n, random.range(0.0, limit) / n, random.phase()));
-    let (by_cage, cage_phase) = (if random.chance(0.2) { 0.3 * random.unit() } else { 0.0 }, random.phase());
+    let (by_cage, cage_phase) =
+        (if random.chance(0.2) && !basic { 0.3 * random.unit() } else { 0.0 }, random.phase());
     let machine = |time: f64| {
         let wave = |(n, depth, phase): &(f64, f64, f64)| depth * (n * TAU * rates.shaft * time + phase).cos();
         let shaft = (1.0 + by_shaft.iter().map(wave).sum::<f64>()).max(0.0);
@@ -94,8 +110,8 @@ pub fn fault(
     };
     let spread = if regular { 0.0 } else { 0.2 };
     let defects = match part {
-        BearingPart::OuterRace | BearingPart::InnerRace => draw_defects(random, balls),
-        BearingPart::Ball | BearingPart::Cage => vec![(0.0, 1.0)],
+        BearingPart::OuterRace | BearingPart::InnerRace if !basic => draw_defects(random, balls),
+        _ => vec![(0.0, 1.0)],
     };
     let times = arrivals(random, rate, jitter);
     let mut impacts = Vec::new();

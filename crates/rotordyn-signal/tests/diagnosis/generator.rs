@@ -3,7 +3,7 @@
 use rotordyn_signal::bearing_lines::{BearingPart, DefectFrequencies};
 
 use super::clock::Clock;
-use super::faults::{draw_bearing, fault};
+use super::faults::{Variety, draw_bearing, fault};
 use super::others::Other;
 use super::path::{coloured, machine_tones, power, scaled_to, sum, white};
 use super::random::Random;
@@ -75,6 +75,22 @@ impl Generated {
         made
     }
 
+    /// A fault under plain conditions, the part by turns as in [`Self::new`], `number` even: 5 s at constant speed, one
+    /// defect with slip, jitter and load zone in front of noise and shaft lines. `snr`: over them \[dB\].
+    pub fn basic(seed: u64, number: usize, snr: f64) -> Self {
+        let random = &mut Random::of_record(seed, number);
+        let (rates, balls) = draw_bearing(random);
+        // A draw for the SNR, as where it is not given.
+        random.unit();
+        let clock = Clock::STEADY;
+        let background = machine(random, rates.shaft, &clock);
+        let part = BearingPart::ALL[number / 2 % 4];
+        let signal = fault(random, part, &rates, balls, &clock, Variety::Basic);
+        let signal = scaled_to(signal, power(&background) * 10f64.powf(0.1 * snr));
+        let record = sum(&background, &signal, 1.0);
+        Generated { record, rates, part: Some(part), other: None, snr, rivals: vec![], clock }
+    }
+
     /// Duration \[s\].
     pub fn seconds(&self) -> f64 {
         self.record.len() as f64 / RATE
@@ -88,7 +104,7 @@ impl Generated {
         let clean = random.chance(CLEAN);
         let snr = if clean { random.range(30.0, 80.0) } else { drawn };
         if clean {
-            let signal = scaled_to(fault(random, part, &rates, balls, &clock), 1.0);
+            let signal = scaled_to(fault(random, part, &rates, balls, &clock, Variety::Full), 1.0);
             let background =
                 sum(&shaft_lines(random, rates.shaft, &clock), &white(random), 10f64.powf(-0.05 * snr));
             let record = sum(&background, &signal, 1.0);
@@ -104,7 +120,7 @@ impl Generated {
             background = sum(&background, &scaled_to(record, level), 1.0);
             rivals = rates;
         }
-        let signal = fault(random, part, &rates, balls, &clock);
+        let signal = fault(random, part, &rates, balls, &clock, Variety::Full);
         let signal = scaled_to(signal, power(&background) * 10f64.powf(0.1 * snr));
         Generated {
             record: sum(&background, &signal, 1.0),

@@ -1,6 +1,7 @@
 //! Diagnoses of generated records: how often a part is found, how often one is named wrongly, how sure the grade is.
 
 mod baseline;
+mod basic;
 mod calibration;
 mod clock;
 mod faults;
