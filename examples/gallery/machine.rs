@@ -32,6 +32,7 @@ pub fn frf() -> Figure {
         title: "Driving-point receptance at the disc, vertical".to_string(),
         note: "at standstill".to_string(),
         quantity: "receptance".to_string(),
+        apart: false,
         unit: "m/N".to_string(),
         curves: vec![curve("spherical", 1.0), curve("cylindrical", 1.13), curve("ball bearings", 0.94)],
     })
@@ -62,6 +63,7 @@ pub fn frf_measured() -> Figure {
         title: "Accelerance at bearing B, vertical: model and test".to_string(),
         note: "hammer, 5 averages; FRAC 0.97".to_string(),
         quantity: "accelerance".to_string(),
+        apart: false,
         unit: "m/s²/N".to_string(),
         curves: vec![
             FrfCurve {
