@@ -28,7 +28,7 @@ fn mapping_positions_a_hit_off_the_shaft_axis() {
     let document =
         json_of(command.arg(test.join("frf_noisy.uff")).arg("--out").arg(folder.path().join("own")));
     let frac = document["measured"][0]["frac"].as_array().unwrap();
-    assert!(frac.len() == 7 && frac.iter().all(|row| row.as_array().unwrap().len() == 2), "{frac:?}");
+    assert!(frac.len() == 8 && frac.iter().all(|row| row.as_array().unwrap().len() == 2), "{frac:?}");
     for value in frac.iter().flat_map(|row| row.as_array().unwrap()) {
         // What a force does not move has none.
         assert!(value.as_f64().is_none_or(|f| f > 0.999), "{frac:?}");

@@ -30,8 +30,8 @@ pub fn run_records(history: &History, model: &Model) -> Result<MeasuredData, Ser
     };
     let channel = |c: &rotordyn_core::results::HistoryChannel| -> Result<Record, SeriesError> {
         // A probe beside its station has no point of its own: one on the shaft would be another place.
-        let beside = |p: &Probe| p.name == c.name && p.at.offset != [0.0; 3];
-        let response = match model.probes.iter().any(beside) {
+        let is_eccentric = |p: &Probe| p.name == c.name && p.at.offset != [0.0; 3];
+        let response = match model.probes.iter().any(is_eccentric) {
             true => Dof::NONE,
             false => {
                 Dof::new(point_number(model, &c.station).unwrap_or(0), direction(&c.direction).unwrap_or(0))

@@ -26,15 +26,15 @@ const SAME_POINT: f64 = 1e-5;
 /// Most names listed in a message.
 const MAX_NAMES: usize = 8;
 
-/// Measured FRFs that are between a response and an excitation of the model, and the speed \[rad/s\] that the file
-/// states.
+/// Measured FRFs that are between a response and an excitation of one of the cases, and the speed \[rad/s\] that the
+/// file states.
 ///
 /// # Errors
 /// A file or mapping that cannot be read, no FRF, none between points of the model, unknown names in `--pair`.
 pub fn read(
     path: &Path,
     args: &CompareArgs,
-    model: &Model,
+    models: &[&Model],
     terminal: &Terminal,
 ) -> Result<(Vec<MeasuredFrf>, Option<f64>), Failure> {
     let file = path.display();
@@ -51,25 +51,29 @@ pub fn read(
         };
         return Err(Failure::Input(format!("{file} holds no FRFs; {advice}")));
     }
+    // A case may leave out what another one has.
+    let studies: Vec<(&Model, &FrfStudy)> =
+        models.iter().filter_map(|model| Some((*model, model.studies.frf.as_ref()?))).collect();
+    let Some((model, study)) = studies.first().copied() else { return Ok((Vec::new(), None)) };
     // Names of the file, before a mapping leaves some out.
-    let pairs = stated_pairs(args, &data, model)?;
+    let pairs = stated_pairs(args, &data, &studies)?;
     if let Some(file) = &args.mapping {
         let place = |name: &str| point_number(model, name);
         warnings.extend(mapping::read(file)?.apply(&mut data, &place, file)?);
     }
-    let Some(study) = &model.studies.frf else { return Ok((Vec::new(), None)) };
     let (mut found, mut unplaced) = (Vec::new(), Vec::new());
     for record in data.records.iter().filter(|r| r.kind == Kind::Frf) {
-        let stated = pairs.iter().find(|(name, _)| *name == record.name).map(|(_, ends)| (*ends, 1.0));
-        let ends = stated.or_else(|| named(record, study)).or_else(|| placed(record, &data, study, model));
-        let Some(((r, e), sign)) = ends else {
+        let stated = pairs.iter().find(|(name, _)| *name == record.name).map(|(_, ends)| (ends.clone(), 1.0));
+        let ends = stated
+            .or_else(|| studies.iter().find_map(|(_, study)| named(record, study)))
+            .or_else(|| studies.iter().find_map(|(model, study)| placed(record, &data, study, model)));
+        let Some(((response, excitation), sign)) = ends else {
             unplaced.push(record.name.as_str());
             continue;
         };
-        let (response, excitation) = (&study.responses[r].name, &study.excitations[e].name);
         let name = format!("{response}/{excitation}");
         let wrong = |why: String| Failure::Input(format!("{file}: `{}`: {why}", record.name));
-        if found.iter().any(|m: &MeasuredFrf| m.response == *response && m.excitation == *excitation) {
+        if found.iter().any(|m: &MeasuredFrf| m.response == response && m.excitation == excitation) {
             let advice = "say with --pair which is meant, or leave one out with --mapping";
             return Err(wrong(format!("the second FRF of {name}; {advice}")));
         }
@@ -86,8 +90,8 @@ pub fn read(
             return Err(wrong("it has no line in --band".into()));
         }
         found.push(MeasuredFrf {
-            response: response.clone(),
-            excitation: excitation.clone(),
+            response,
+            excitation,
             values: kept.iter().map(|&k| sign * values[k]).collect(),
             coherence: kept.iter().filter_map(|&k| coherence.get(k).copied()).collect(),
             hz: kept.iter().map(|&k| hz[k]).collect(),
@@ -110,15 +114,15 @@ pub fn read(
     Ok((found, rpm.map(|rpm| rpm * std::f64::consts::TAU / 60.0)))
 }
 
-type Ends = (usize, usize);
+/// Names of response and excitation.
+type Ends = (String, String);
 
 /// Records named by `--pair` with their places in the study.
 fn stated_pairs(
     args: &CompareArgs,
     data: &MeasuredData,
-    model: &Model,
+    studies: &[(&Model, &FrfStudy)],
 ) -> Result<Vec<(String, Ends)>, Failure> {
-    let Some(study) = &model.studies.frf else { return Ok(Vec::new()) };
     let known: Vec<&str> =
         data.records.iter().filter(|r| r.kind == Kind::Frf).map(|r| r.name.as_str()).collect();
     let mut out = Vec::new();
@@ -137,7 +141,19 @@ fn stated_pairs(
             .trim_matches('"')
             .split_once('/')
             .ok_or_else(|| wrong("write the model's response and excitation, such as disc_x/rim".into()))?;
-        out.push((record.to_string(), ends_of(response.trim(), excitation.trim(), study).map_err(wrong)?));
+        let (response, excitation) = (response.trim(), excitation.trim());
+        let of_cases: Vec<_> =
+            studies.iter().map(|(_, study)| ends_of(response, excitation, study)).collect();
+        let ends = match of_cases.iter().find_map(|ends| ends.as_ref().ok()) {
+            Some(ends) => ends.clone(),
+            // What the first case lacks.
+            None => of_cases
+                .into_iter()
+                .next()
+                .unwrap_or_else(|| Err("there are no FRFs".into()))
+                .map_err(wrong)?,
+        };
+        out.push((record.to_string(), ends));
     }
     Ok(out)
 }
@@ -146,8 +162,8 @@ fn ends_of(response: &str, excitation: &str, study: &FrfStudy) -> Result<Ends, S
     let responses: Vec<&str> = study.responses.iter().map(|p| p.name.as_str()).collect();
     let excitations: Vec<&str> = study.excitations.iter().map(|e| e.name.as_str()).collect();
     let place = |what: &str, name: &str, known: &[&str]| {
-        let at = known.iter().position(|own| *own == name);
-        at.ok_or_else(|| {
+        let is_known = known.contains(&name).then(|| name.to_string());
+        is_known.ok_or_else(|| {
             format!("there is no {what} `{name}` in the model's FRFs, which have {}", listed(known))
         })
     };
@@ -164,11 +180,11 @@ fn named(record: &Record, study: &FrfStudy) -> Option<(Ends, f64)> {
 fn placed(record: &Record, data: &MeasuredData, study: &FrfStudy, model: &Model) -> Option<(Ends, f64)> {
     let at = |dof: Dof| sensors(&[dof], &data.geometry, model).ok()?.pop();
     let (response, reference) = (at(record.response)?, at(record.reference)?);
-    let mut responses = study.responses.iter().enumerate();
-    let mut excitations = study.excitations.iter().enumerate();
-    let (r, of_response) = responses.find_map(|(k, p)| Some((k, sign(&response, &p.at, &p.direction)?)))?;
-    let (e, of_force) = excitations.find_map(|(k, x)| Some((k, sign(&reference, &x.at, &x.direction)?)))?;
-    Some(((r, e), of_response * of_force))
+    let mut responses = study.responses.iter();
+    let mut excitations = study.excitations.iter();
+    let (p, of_response) = responses.find_map(|p| Some((p, sign(&response, &p.at, &p.direction)?)))?;
+    let (x, of_force) = excitations.find_map(|x| Some((x, sign(&reference, &x.at, &x.direction)?)))?;
+    Some(((p.name.clone(), x.name.clone()), of_response * of_force))
 }
 
 /// 1 or -1 if a sensor is at a point of the model along or against its direction.

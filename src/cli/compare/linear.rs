@@ -45,7 +45,8 @@ pub fn run(args: &CompareArgs, cases: &[Case], terminal: &Terminal) -> Result<Ou
     let modes = (computed.len() > 1).then(|| compare_variants(&modal, args.min_mac));
     let measured = match &args.measured {
         Some(path) => {
-            let (frfs, speed) = frf_places::read(path, args, &first.machine.model, terminal)?;
+            let models: Vec<_> = computed.iter().map(|case| &case.machine.model).collect();
+            let (frfs, speed) = frf_places::read(path, args, &models, terminal)?;
             let own = first.results.frf.as_ref().map_or(0.0, |found| found.speed);
             if let Some(speed) = speed.filter(|speed| (speed - own).abs() > SAME_SPEED) {
                 let (file, own) = (path.display(), rpm(own));

@@ -80,8 +80,8 @@ pub fn run(args: &CompareArgs, cases: &[Case], terminal: &Terminal) -> Result<Ou
     if !args.study.no_figures {
         let spinner = terminal.spinner("figures");
         let own = computed.iter().map(|case| case.campbell.as_ref());
-        let beside = of_measured.iter().map(|_| computed[0].campbell.as_ref());
-        let campbell: Vec<Option<&CampbellResult>> = beside.chain(own).collect();
+        let with_measured = of_measured.iter().map(|_| computed[0].campbell.as_ref());
+        let campbell: Vec<Option<&CampbellResult>> = with_measured.chain(own).collect();
         let machine = &computed[0].job.machine;
         files.extend(figures::draw_run_up_comparison(&found, &campbell, machine, &folder)?);
         spinner.finish_and_clear();
@@ -108,8 +108,8 @@ fn measured_of(
         RunUpReading { mapping: args.mapping.as_deref(), time: args.time.as_deref(), shaft: &args.shaft };
     // What is wrong with the file is said once.
     let quiet = terminal.without_warnings();
-    let said = if is_first { terminal } else { &quiet };
-    let found = run_up_correlation::read(path, &reading, &model, said)?;
+    let shown = if is_first { terminal } else { &quiet };
+    let found = run_up_correlation::read(path, &reading, &model, shown)?;
     let found = found.map_err(|why| Failure::Input(format!("{}: no run-up: {why}", path.display())))?;
     if is_first {
         terminal.print(&format!(
