@@ -80,8 +80,11 @@ fn draw_apart(data: &Frf) -> Svg {
     const COLUMNS: usize = 2;
     const GAP_ACROSS: f64 = 46.0;
     const HEIGHTS: [f64; 2] = [132.0, 58.0];
-    const GAPS: [f64; 2] = [6.0, 14.0];
-    let (mut svg, top) = page_heading(WIDTH, LEFT, &data.title, &data.note, &[]);
+    const GAPS: [f64; 2] = [6.0, NAME];
+    /// Above a panel, for its name.
+    const NAME: f64 = 26.0;
+    let (mut svg, heading) = page_heading(WIDTH, LEFT, &data.title, &data.note, &[]);
+    let top = heading + NAME - 10.0;
     let w = (WIDTH - LEFT - RIGHT - GAP_ACROSS) / COLUMNS as f64;
     let x = Range::of(data.curves.iter().flat_map(|c| c.hz.iter().copied())).near_zero();
     let magnitudes: Vec<Vec<f64>> =
@@ -109,9 +112,8 @@ fn draw_apart(data: &Frf) -> Svg {
         };
         magnitude.border(&mut svg, None, &labels[0]);
         phase.border(&mut svg, x_label.as_deref(), &labels[1]);
-        let name = font::fit(&c.label, LABEL, w - 16.0);
-        let at = [magnitude.frame.right() - 8.0, magnitude.frame.y + 17.0];
-        svg.text(at, &name, Text::new(LABEL, INK).end().halo());
+        let name = font::fit(&c.label, LABEL, w);
+        svg.text([left, upper - 7.0], &name, Text::new(LABEL, INK));
         bottom = bottom.max(lower.bottom());
     }
     svg.height = bottom + BOTTOM;
