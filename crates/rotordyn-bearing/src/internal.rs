@@ -9,15 +9,13 @@
 
 use crate::reaction::{Reaction, Rotation};
 
-/// Newmark coefficients of a step: positions x̄ + `position` a and velocities v̄ + `velocity` a with accelerations a at its
-/// end; an internal coordinate has a = `force` Q/m.
+/// Newmark coefficients of a step: positions x̂ + `position` a and velocities v̂ + `velocity` a with accelerations a at its
+/// end; an internal coordinate has a = Q/m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewmarkGain {
-    /// β h² \[s²\] and γ h \[s\].
+    /// g β h² \[s²\] and g γ h \[s\], g the share of a in the integrator's acceleration.
     pub position: f64,
     pub velocity: f64,
-    /// Share of the force at the step's end in the acceleration.
-    pub force: f64,
 }
 
 /// Positions and velocities.

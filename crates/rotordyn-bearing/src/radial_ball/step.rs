@@ -31,8 +31,8 @@ impl RadialElement {
         let mut sum = RingForceSum::default();
         let mut stiffness = [[0.0; 4]; 4];
         let ratio = gain.velocity / gain.position;
-        // Of a ball with effective mass m′ = m/gain.force: position and velocity per force at the end.
-        let inverse_mass = gain.force / self.mass;
+        // Position and velocity per force at the end.
+        let inverse_mass = 1.0 / self.mass;
         let by_force = [gain.position * inverse_mass, gain.velocity * inverse_mass];
         let InternalStep { position, velocity, force, force_tangent, stiffness: effective } = balls;
         self.for_each_ball(rings, rotation, |j, seen| {

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::numbers::vector;
 use super::system::{State, System};
 use super::torque::DriveEnergy;
+use crate::model::Spin;
 use rotordyn_bearing::{Reaction, Rotation};
 
 /// Energy balance \[J\]: kinetic + strain + contact = start + work + drive + parametric − losses + residual.
@@ -61,10 +62,8 @@ impl Energy {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EnergyBalance {
     pub energy: Energy,
-    #[serde(with = "vector")]
-    load: DVector<f64>,
-    #[serde(with = "vector")]
-    previous_load: DVector<f64>,
+    /// Factors of the working loads at the last state, and at the present one.
+    factors: [Vec<f64>; 2],
     #[serde(with = "vector")]
     linear: DVector<f64>,
     scratch: Vec<f64>,
@@ -80,6 +79,7 @@ pub struct EnergyBalance {
     body_work: [f64; 2],
     rotations: Vec<Rotation>,
     rotation: Option<DriveEnergy>,
+    spin: Spin,
     time: f64,
 }
 
@@ -88,8 +88,7 @@ impl EnergyBalance {
         let zero = || DVector::zeros(system.size());
         let mut balance = Self {
             energy: Energy::default(),
-            load: zero(),
-            previous_load: zero(),
+            factors: [factors(system, state).collect(), Vec::new()],
             linear: zero(),
             scratch: Vec::new(),
             moved: zero(),
@@ -99,9 +98,9 @@ impl EnergyBalance {
             body_work: system.body_work(state),
             rotations: state.rotations.clone(),
             rotation: system.drive.as_ref().map(|drive| DriveEnergy::new(drive, system, state)),
+            spin: state.spin,
             time: state.time,
         };
-        effective_load(system, state, &mut balance.scratch, &mut balance.previous_load);
         balance.update_stored_energy(system, state);
         balance.energy.start = balance.energy.stored();
         balance
@@ -109,8 +108,9 @@ impl EnergyBalance {
 
     /// Whether it is one of a system of this size.
     pub(super) fn fits(&self, system: &System) -> bool {
-        let vectors = [&self.load, &self.previous_load, &self.linear, &self.moved, &self.x, &self.v];
+        let vectors = [&self.linear, &self.moved, &self.x, &self.v];
         vectors.iter().all(|vector| vector.len() == system.size())
+            && self.factors[0].len() == system.working_terms(0.0, &self.spin).count()
             && self.rotations.len() == system.interfaces.len()
             && self.rotation.is_some() == system.drive.is_some()
     }
@@ -127,16 +127,14 @@ impl EnergyBalance {
             self.energy.work += done.gravity;
             self.energy.damping_loss += done.loss;
         }
-        effective_load(system, state, &mut self.scratch, &mut self.load);
-        let e = &mut self.energy;
-        e.work += 0.5 * (self.load.dot(&self.moved) + self.previous_load.dot(&self.moved));
-        std::mem::swap(&mut self.load, &mut self.previous_load);
+        self.energy.work += self.work_of_loads(system, state) + self.work_of_rotation(system, state);
         // C (v₀ + v₁)/2 along the path.
         self.v += &state.v;
         self.v *= 0.5;
         self.linear.fill(0.0);
         let n = system.structure();
         system.panels.damping.mul_add(&self.v.as_slice()[..n], &mut self.linear.as_mut_slice()[..n]);
+        let e = &mut self.energy;
         e.damping_loss += self.linear.dot(&self.moved);
         let now = powers(system, state);
         e.parametric += 0.5 * step * (self.powers[0] + now[0]);
@@ -150,14 +148,60 @@ impl EnergyBalance {
         self.rotations.copy_from_slice(&state.rotations);
         self.x.copy_from(&state.x);
         self.v.copy_from(&state.v);
+        self.spin = state.spin;
         self.time = state.time;
+    }
+
+    /// Work of the mean loads of the step.
+    fn work_of_loads(&mut self, system: &System, state: &State) -> f64 {
+        let [before, now] = &mut self.factors;
+        now.clear();
+        let mut sum = 0.0;
+        for ((factor, vector), before) in system.working_terms(state.time, &state.spin).zip(&*before) {
+            now.push(factor);
+            let twice = before + factor;
+            if twice != 0.0 {
+                sum += 0.5 * twice * vector.dot(&self.moved);
+            }
+        }
+        self.factors.swap(0, 1);
+        sum
+    }
+
+    /// Work of the mean of −(Ω̇ K_s + Ω K_c) x, the left-hand terms that are neither elastic nor damping; under a torque
+    /// drive it stays inside the machine.
+    fn work_of_rotation(&mut self, system: &System, state: &State) -> f64 {
+        let panels = &system.panels;
+        let with_spin_up = panels.has_spin_up();
+        let is_zero = self.spin.acceleration == 0.0 && state.spin.acceleration == 0.0;
+        if system.drive.is_some() || !panels.has_circulatory() && (is_zero || !with_spin_up) {
+            return 0.0;
+        }
+        let n = system.structure();
+        let (x0, x1) = (&self.x.as_slice()[..n], &state.x.as_slice()[..n]);
+        self.scratch.clear();
+        let mut add = |at: f64, to: f64| {
+            self.scratch.extend(x0.iter().zip(x1).map(|(x0, x1)| -0.5 * (at * x0 + to * x1)));
+        };
+        if with_spin_up {
+            add(self.spin.acceleration, state.spin.acceleration);
+        }
+        if panels.has_circulatory() {
+            add(self.spin.speed, state.spin.speed);
+        }
+        let load = &mut self.linear.as_mut_slice()[..n];
+        load.fill(0.0);
+        panels.effective.mul_add(&self.scratch, load);
+        self.linear.rows(0, n).dot(&self.moved.rows(0, n))
     }
 
     /// Continues from a state whose coordinates were changed between steps (recentring of a torque drive).
     pub fn restart_from(&mut self, system: &System, state: &State) {
-        effective_load(system, state, &mut self.scratch, &mut self.previous_load);
+        self.factors[0].clear();
+        self.factors[0].extend(factors(system, state));
         self.x.copy_from(&state.x);
         self.v.copy_from(&state.v);
+        self.spin = state.spin;
         self.rotation = system.drive.as_ref().map(|drive| DriveEnergy::new(drive, system, state));
     }
 
@@ -203,20 +247,7 @@ fn energy_by_speed_change(system: &System, state: &State, before: &[Rotation]) -
     sum
 }
 
-/// Loads plus the left-hand terms that are neither elastic nor damping: −(Ω̇ K_s + Ω K_c) x. Under a torque drive the
-/// given loads alone.
-fn effective_load(system: &System, state: &State, scratch: &mut Vec<f64>, out: &mut DVector<f64>) {
-    if system.drive.is_some() {
-        return system.given_load(state.time, out);
-    }
-    system.load(state.time, &state.spin, out);
-    if !system.panels.has_effective {
-        return;
-    }
-    let n = system.structure();
-    let x = &state.x.as_slice()[..n];
-    scratch.clear();
-    scratch.extend(x.iter().map(|x| -state.spin.acceleration * x));
-    scratch.extend(x.iter().map(|x| -state.spin.speed * x));
-    system.panels.effective.mul_add(scratch, &mut out.as_mut_slice()[..n]);
+/// Factors of the loads that do work.
+fn factors(system: &System, state: &State) -> impl Iterator<Item = f64> {
+    system.working_terms(state.time, &state.spin).map(|(factor, _)| factor)
 }

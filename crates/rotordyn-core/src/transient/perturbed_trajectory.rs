@@ -161,6 +161,7 @@ impl PerturbedTrajectory {
         let State { d, d_rate, rotations, reactions, force, bodies, body_rates, .. } = state;
         let bodies = Bodies { states: bodies, rates: body_rates };
         system.bearing_reactions(d, d_rate, rotations, bodies, reactions, force);
+        system.update_acceleration(state);
         (norm / self.size).ln()
     }
 

@@ -8,7 +8,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::interface::Interface;
-use super::system::{Channel, LoadHistory, Panels, System};
+use super::panels::Panels;
+use super::system::{Channel, LoadHistory, System};
 use super::torque::{RotatingUnbalance, TorqueDrive};
 use crate::analysis::equilibrium::Equilibrium;
 use crate::assembly::dense_limit::check_dense;

@@ -216,8 +216,8 @@ impl RungeKutta {
         state.x.copy_from(&self.x);
         state.v.copy_from(&self.v);
         state.a.copy_from(&self.stages[if last_is_end { c.len() - 1 } else { 0 }].1);
+        state.acceleration.copy_from(&state.a);
         if system.drive.is_some() {
-            state.driven.acceleration.copy_from(&state.a);
             state.driven.rate = end.acceleration;
         }
         state.time += step;

@@ -10,13 +10,13 @@ use serde::{Deserialize, Serialize};
 
 use super::interface::{Interface, StepTangents};
 use super::numbers::vector;
+use super::panels::Panels;
 use super::torque::{DrivenState, TorqueDrive};
 use crate::assembly::PhysicsError;
 use crate::model::{Quantity, SpeedCurve, Spin};
 use rotordyn_bearing::internal::{InternalStep, Motion, NewmarkGain};
 use rotordyn_bearing::{Reaction, Rotation};
 use rotordyn_linalg::panel::Panel;
-use rotordyn_linalg::{Outside, piecewise};
 
 /// A load p(t) = factor(t) · vector, factor piecewise linear and zero outside its table.
 #[derive(Clone, Debug)]
@@ -71,50 +71,6 @@ pub struct System {
     pub panels: Panels,
 }
 
-/// The system's matrices stored for the matrix-vector products of a time step.
-#[derive(Clone, Debug)]
-pub struct Panels {
-    /// The non-zero ones of \[C K G K_s K_c\].
-    linear: Panel,
-    is_nonzero: [bool; 5],
-    /// C alone.
-    pub damping: Panel,
-    /// \[K_s K_c\]: the left-hand terms that are neither elastic, damping nor gyroscopic.
-    pub effective: Panel,
-    pub has_effective: bool,
-    /// W and Wᵀ.
-    to_interface: Panel,
-    from_interface: Panel,
-}
-
-impl Panels {
-    /// Whether K_s is not zero.
-    pub fn has_spin_up(&self) -> bool {
-        self.is_nonzero[3]
-    }
-
-    /// Panels of the matrices C, K, G, K_s, K_c and W.
-    pub fn new(
-        [damping, stiffness, gyroscopic, spin_up, circulatory]: [&DMatrix<f64>; 5],
-        interface_map: &DMatrix<f64>,
-    ) -> Self {
-        let all = [damping, stiffness, gyroscopic, spin_up, circulatory];
-        // The stiffness is always kept: it defines the number of rows.
-        let is_nonzero: [bool; 5] = std::array::from_fn(|k| k == 1 || all[k].amax() != 0.0);
-        let nonzero: Vec<_> =
-            all.iter().zip(is_nonzero).filter(|(_, there)| *there).map(|(m, _)| *m).collect();
-        Self {
-            linear: Panel::new(&nonzero),
-            is_nonzero,
-            damping: Panel::new(&[damping]),
-            effective: Panel::new(&[spin_up, circulatory]),
-            has_effective: is_nonzero[3] || is_nonzero[4],
-            to_interface: Panel::new(&[interface_map]),
-            from_interface: Panel::new(&[&interface_map.transpose()]),
-        }
-    }
-}
-
 /// State of a run: time, shaft motion, coordinates and bearing states.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
@@ -124,8 +80,12 @@ pub struct State {
     pub x: DVector<f64>,
     #[serde(with = "vector")]
     pub v: DVector<f64>,
+    /// Acceleration of an implicit integrator, which may be shifted in time.
     #[serde(with = "vector")]
     pub a: DVector<f64>,
+    /// ẍ of the equations of motion.
+    #[serde(with = "vector")]
+    pub acceleration: DVector<f64>,
     /// Per interface: angle and speed of cage and shaft.
     pub rotations: Vec<Rotation>,
     /// Per interface: force, tangents and energies at this state.
@@ -152,13 +112,13 @@ impl State {
     /// Whether it is one of a system of this size.
     pub fn fits(&self, system: &System) -> bool {
         let driven = if system.drive.is_some() { system.size() } else { 0 };
-        let vectors = [&self.x, &self.v, &self.a];
+        let vectors = [&self.x, &self.v, &self.a, &self.acceleration];
         let places = [&self.d, &self.d_rate, &self.force];
         vectors.iter().all(|vector| vector.len() == system.size())
             && places.iter().all(|place| place.len() == system.interface_size())
             && [self.rotations.len(), self.reactions.len()] == [system.interfaces.len(); 2]
             && [self.bodies.len(), self.body_rates.len()] == [system.body_states(); 2]
-            && [self.driven.load.len(), self.driven.acceleration.len()] == [driven; 2]
+            && self.driven.load.len() == driven
     }
 }
 
@@ -218,43 +178,38 @@ impl System {
         self.interfaces.iter().find_map(named).unwrap_or("the structure".into())
     }
 
-    /// Load p(t) without bearing forces, and under a torque drive without what couples the rotation to the other
-    /// coordinates ([`TorqueDrive::add_coupling`]), written to `out`.
-    pub fn load(&self, time: f64, spin: &Spin, out: &mut DVector<f64>) {
-        let (square, rate) = (spin.speed * spin.speed, spin.acceleration);
-        out.copy_from(&self.static_load);
-        if self.drive.is_none() && self.unbalance.iter().any(|u| u.as_slice().iter().any(|u| *u != 0.0)) {
-            let (sin, cos) = spin.angle.sin_cos();
-            out.axpy(square * cos + rate * sin, &self.unbalance[0], 1.0);
-            out.axpy(square * sin - rate * cos, &self.unbalance[1], 1.0);
-        }
-        if rate != 0.0 {
-            out.axpy(rate, &self.spin_inertia, 1.0);
-        }
-        if let Some(drive) = &self.drive {
-            out.axpy(drive.torque_at(spin.speed), &drive.torque, 1.0);
-        }
-        self.add_histories(time, out);
-    }
-
-    /// Constant and tabulated loads alone, written to `out`.
-    pub fn given_load(&self, time: f64, out: &mut DVector<f64>) {
-        out.copy_from(&self.static_load);
-        self.add_histories(time, out);
-    }
-
-    fn add_histories(&self, time: f64, out: &mut DVector<f64>) {
-        for history in &self.histories {
-            let factor = piecewise(&history.points, time, Outside::Zero)[1];
-            if factor != 0.0 {
-                out.axpy(factor, &history.vector, 1.0);
-            }
-        }
-    }
-
     /// Adds weight × ((C + Ω G) v + (K + Ω̇ K_s + Ω K_c) x) to `out`; `scratch`: reusable buffer.
     pub fn add_linear(
         &self,
+        spin: &Spin,
+        motion: [&DVector<f64>; 2],
+        weight: f64,
+        scratch: &mut Vec<f64>,
+        out: &mut DVector<f64>,
+    ) {
+        self.add_product(&self.panels.linear, 0, spin, motion, weight, scratch, out);
+    }
+
+    /// Adds weight × (Ω G v + (Ω̇ K_s + Ω K_c) x) to `out`; `scratch`: reusable buffer.
+    pub fn add_rotational(
+        &self,
+        spin: &Spin,
+        motion: [&DVector<f64>; 2],
+        weight: f64,
+        scratch: &mut Vec<f64>,
+        out: &mut DVector<f64>,
+    ) {
+        if self.panels.is_nonzero[2..].contains(&true) {
+            self.add_product(&self.panels.rotational, 2, spin, motion, weight, scratch, out);
+        }
+    }
+
+    /// Adds the product with the non-zero ones of \[C K G K_s K_c\] from the one at index `first` on.
+    #[allow(clippy::too_many_arguments)]
+    fn add_product(
+        &self,
+        panel: &Panel,
+        first: usize,
         spin: &Spin,
         [x, v]: [&DVector<f64>; 2],
         weight: f64,
@@ -265,15 +220,13 @@ impl System {
         let (x, v) = (&x.as_slice()[..n], &v.as_slice()[..n]);
         let Spin { speed, acceleration, .. } = *spin;
         let factors = [(v, 1.0), (x, 1.0), (v, speed), (x, acceleration), (x, speed)];
-        scratch.resize(self.panels.linear.columns(), 0.0);
-        let mut parts = scratch.chunks_exact_mut(n.max(1));
-        for ((y, factor), _) in factors.iter().zip(self.panels.is_nonzero).filter(|(_, there)| *there) {
+        let terms = factors.iter().zip(self.panels.is_nonzero).skip(first);
+        scratch.clear();
+        for ((y, factor), _) in terms.filter(|(_, there)| *there) {
             let factor = weight * factor;
-            if let Some(part) = parts.next() {
-                part.iter_mut().zip(*y).for_each(|(part, y)| *part = factor * y);
-            }
+            scratch.extend(y.iter().map(|y| factor * y));
         }
-        self.panels.linear.mul_add(scratch, &mut out.as_mut_slice()[..n]);
+        panel.mul_add(scratch, &mut out.as_mut_slice()[..n]);
     }
 
     /// W y for coordinates y, then the internal coordinates, written to `out`.
@@ -433,6 +386,7 @@ impl System {
             x,
             v,
             a: DVector::zeros(n),
+            acceleration: DVector::zeros(n),
             rotations,
             reactions: vec![Reaction::default(); self.interfaces.len()],
             d: vec![0.0; places],
@@ -480,14 +434,20 @@ impl System {
         let State { d, d_rate, rotations, reactions, force, bodies, body_rates, .. } = state;
         let bodies = Bodies { states: bodies, rates: body_rates };
         self.bearing_reactions(d, d_rate, rotations, bodies, reactions, force);
-        let mut a = DVector::zeros(self.size());
-        self.load(state.time, &state.spin, &mut a);
-        self.add_linear(&state.spin, [&x, &v], -1.0, &mut Vec::new(), &mut a);
-        self.add_from_interface(&state.force, &mut a);
-        match &self.drive {
-            None => state.a = a,
-            Some(drive) => drive.start(self, state, a),
+        self.update_acceleration(state);
+        state.a.copy_from(&state.acceleration);
+        if let Some(drive) = &self.drive {
+            drive.start(self, state);
         }
+    }
+
+    /// ẍ = p + Wᵀ f − (C + Ω G) ẋ − (K + …) x of a state; under a torque drive without its coupling loads.
+    pub fn update_acceleration(&self, state: &mut State) {
+        let mut acceleration = std::mem::take(&mut state.acceleration);
+        self.load(state.time, &state.spin, &mut acceleration);
+        self.add_linear(&state.spin, [&state.x, &state.v], -1.0, &mut Vec::new(), &mut acceleration);
+        self.add_from_interface(&state.force, &mut acceleration);
+        state.acceleration = acceleration;
     }
 
     /// Reads every channel at a state into `out`.

@@ -25,33 +25,33 @@ impl TorqueDrive {
     pub fn recentre(&self, state: &mut State) {
         let r = &self.rigid_rotation;
         let [angle, speed, rate] = [&state.x, &state.v, &state.a].map(|y| self.rigid_part(y));
-        let true_rate = self.rigid_part(&state.driven.acceleration);
+        let true_rate = self.rigid_part(&state.acceleration);
         state.x.axpy(-angle, r, 1.0);
         state.v.axpy(-speed, r, 1.0);
         state.a.axpy(-rate, r, 1.0);
-        state.driven.acceleration.axpy(-true_rate, r, 1.0);
+        state.acceleration.axpy(-true_rate, r, 1.0);
         state.driven.rate += rate;
         state.spin.angle += angle;
         state.spin.speed += speed;
         state.spin.acceleration += true_rate;
     }
 
-    /// Sets the accelerations of a state from the sum of its other loads `others` = p − (C+ΩG) ẋ − (K+…) x + Wᵀ f, and
-    /// transfers the rigid rotation to the frame.
-    pub fn start(&self, system: &System, state: &mut State, others: DVector<f64>) {
+    /// Completes the accelerations of a state from the sum of its other loads p − (C+ΩG) ẋ − (K+…) x + Wᵀ f in
+    /// `acceleration`, and transfers the rigid rotation to the frame.
+    pub fn start(&self, system: &System, state: &mut State) {
         let mut work = coupling::Workspace::new(self, system.size());
-        let mut acceleration = others;
+        let mut acceleration = std::mem::take(&mut state.acceleration);
         self.solve_acceleration(system, state, &mut acceleration, &mut work);
         state.driven.load = DVector::zeros(system.size());
         state.driven.rate = state.spin.acceleration;
         state.a.copy_from(&acceleration);
-        state.driven.acceleration = acceleration;
+        state.acceleration = acceleration;
         self.recentre(state);
         let at = coupling::Motion {
             spin: &state.spin,
             x: &state.x,
             v: &state.v,
-            acceleration: &state.driven.acceleration,
+            acceleration: &state.acceleration,
         };
         let mut load = std::mem::take(&mut state.driven.load);
         self.add_coupling(system, &at, &state.reactions, &mut work, &mut load);

@@ -14,12 +14,11 @@ pub(super) struct DrivenStep {
     pub(super) load: DVector<f64>,
     pub(super) correction: DVector<f64>,
     pub(super) response: DVector<f64>,
-    pub(super) scratch: Vec<f64>,
-    /// Part of Ω̇ K_s x that the effective matrix leaves out.
-    pub(super) spin_up: DVector<f64>,
+    /// e with what the step matrix leaves out.
+    pub(super) total: DVector<f64>,
+    /// End of the step.
     pub(super) x: DVector<f64>,
     pub(super) v: DVector<f64>,
-    pub(super) acceleration: DVector<f64>,
     /// e and Ω̇ at the start of the previous step, and that step's length.
     pub(super) previous_load: DVector<f64>,
     pub(super) previous_rate: f64,
@@ -30,8 +29,6 @@ pub(super) struct DrivenStep {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DrivenMemory {
     #[serde(with = "vector")]
-    spin_up: DVector<f64>,
-    #[serde(with = "vector")]
     previous_load: DVector<f64>,
     previous_rate: f64,
     previous_step: f64,
@@ -39,7 +36,7 @@ pub struct DrivenMemory {
 
 impl DrivenMemory {
     pub(super) fn fits(&self, size: usize) -> bool {
-        self.spin_up.len() == size && self.previous_load.len() == size
+        self.previous_load.len() == size
     }
 }
 
@@ -47,7 +44,6 @@ impl DrivenStep {
     /// What the next step takes from the last one.
     pub(super) fn memory(&self) -> DrivenMemory {
         DrivenMemory {
-            spin_up: self.spin_up.clone(),
             previous_load: self.previous_load.clone(),
             previous_rate: self.previous_rate,
             previous_step: self.previous_step,
@@ -56,8 +52,7 @@ impl DrivenStep {
 
     /// Buffers after the step that left `memory`.
     pub(super) fn after(drive: &TorqueDrive, memory: &DrivenMemory) -> Self {
-        let mut out = Self::new(drive, memory.spin_up.len());
-        out.spin_up.copy_from(&memory.spin_up);
+        let mut out = Self::new(drive, memory.previous_load.len());
         out.previous_load.copy_from(&memory.previous_load);
         (out.previous_rate, out.previous_step) = (memory.previous_rate, memory.previous_step);
         out
@@ -70,11 +65,9 @@ impl DrivenStep {
             load: zero(),
             correction: zero(),
             response: zero(),
-            scratch: Vec::new(),
-            spin_up: zero(),
+            total: zero(),
             x: zero(),
             v: zero(),
-            acceleration: zero(),
             previous_load: zero(),
             previous_rate: 0.0,
             previous_step: 0.0,
@@ -85,7 +78,6 @@ impl DrivenStep {
     pub(super) fn guess(&mut self, state: &State, step: f64) -> f64 {
         self.load.copy_from(&state.driven.load);
         if self.previous_step != step {
-            self.spin_up.fill(0.0);
             return state.spin.acceleration;
         }
         self.load *= 2.0;

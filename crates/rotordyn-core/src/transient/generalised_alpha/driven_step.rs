@@ -7,7 +7,7 @@
 use super::driven_buffers::DrivenStep;
 use nalgebra::DVector;
 
-use super::{GeneralisedAlpha, StepFailure};
+use super::{GeneralisedAlpha, Scheme, StepFailure};
 use crate::model::Spin;
 use crate::transient::system::{State, System};
 use crate::transient::torque::TorqueDrive;
@@ -38,7 +38,6 @@ impl GeneralisedAlpha {
             (driven.previous_rate, driven.previous_step) = (state.spin.acceleration, step);
             self.update(state, step, spin);
             state.driven.load.copy_from(&driven.load);
-            state.driven.acceleration.copy_from(&driven.acceleration);
             state.driven.rate = rate;
         }
         self.driven = Some(driven);
@@ -54,30 +53,26 @@ impl GeneralisedAlpha {
         step: f64,
         driven: &mut DrivenStep,
     ) -> Result<(Spin, f64), StepFailure> {
-        let scheme = self.scheme;
-        let gain = scheme.gain(step);
         let mut change = f64::INFINITY;
         let mut end_rate = driven.guess(state, step);
+        // The first guess of the acceleration at the end is that at the start.
+        self.acceleration.copy_from(&state.acceleration);
         for pass in 0..MAX_PASSES {
             let (spin, rate) = self.frame(state, step, end_rate);
             self.predict(system, state, step, &spin);
-            self.assemble(system, state, step, &spin);
-            // α_f R₀ has the coupling at the start, (1−α_f) R₁ that at the end.
-            self.right.axpy(scheme.alpha_f, &state.driven.load, 1.0);
-            self.right.axpy(1.0 - scheme.alpha_f, &driven.load, 1.0);
-            self.right.axpy(1.0 - scheme.alpha_f, &driven.spin_up, 1.0);
-            let matrix_spin = Spin { acceleration: 0.0, ..spin };
-            self.solve(system, state, step, &matrix_spin, pass == 0)?;
-            self.end_of_step(system, state, step, driven);
+            self.end_of_step(step, driven);
+            self.find_load(system, step, state.time + step, &spin, driven);
+            self.solve(system, state, step, &spin, pass == 0, Some(&driven.total))?;
+            self.end_of_step(step, driven);
 
             // δ = coupling(x₁, ẋ₁, ẍ₁) − e.
             driven.correction.copy_from(&driven.load);
             driven.correction.neg_mut();
-            let at = Motion { spin: &spin, x: &driven.x, v: &driven.v, acceleration: &driven.acceleration };
+            let at = Motion { spin: &spin, x: &driven.x, v: &driven.v, acceleration: &self.acceleration };
             let reactions = self.newton.reactions();
             drive.add_coupling(system, &at, reactions, &mut driven.work, &mut driven.correction);
             // Mass-normalised accelerations: of the coordinates, of the rotation, and by the loads they balance.
-            let scale = driven.acceleration.norm()
+            let scale = self.acceleration.norm()
                 + driven.load.norm()
                 + drive.inertia().sqrt() * spin.acceleration.abs()
                 + system.static_load.norm();
@@ -89,45 +84,33 @@ impl GeneralisedAlpha {
             if !change.is_finite() {
                 break;
             }
-            // D = (1−α_m) S⁻¹.
-            let DrivenStep { work, correction, response, scratch, .. } = &mut *driven;
-            let matrix = self.matrices.at(system, scheme, step, &matrix_spin);
+            // D = S⁻¹.
+            let DrivenStep { work, correction, response, .. } = &mut *driven;
+            let n = system.structure();
+            let matrix = self.matrices.at(system, self.scheme, step, state.time + step, &spin);
             let mut respond = |load: &DVector<f64>, response: &mut DVector<f64>| {
-                let n = system.structure();
                 response.fill(0.0);
-                matrix.add_inverse(
-                    spin.speed,
-                    &load.as_slice()[..n],
-                    scratch,
-                    &mut response.as_mut_slice()[..n],
-                );
-                *response *= 1.0 - scheme.alpha_m;
+                matrix.add_inverse(&load.as_slice()[..n], &mut response.as_mut_slice()[..n]);
             };
             respond(correction, response);
             work.set_responses(&mut respond);
             drive.solve_coupling(work, response, correction);
             respond(correction, response);
             let turned = drive.rigid_part(response);
-            end_rate += drive.rigid_part(&driven.acceleration) + turned;
+            end_rate += drive.rigid_part(&self.acceleration) + turned;
             driven.load += &driven.correction;
             driven.load.axpy(turned, driven.work.spin_up_x(), 1.0);
-            if system.panels.has_spin_up() {
-                let n = system.structure();
-                let by_step = self.a.rows(0, n);
-                let factor = -spin.acceleration * gain.position;
-                driven.spin_up.rows_mut(0, n).gemv(factor, &system.spin_up, &by_step, 0.0);
-            }
         }
         Err(StepFailure { row: usize::MAX, residual: change, iterations: MAX_PASSES })
     }
 
-    /// The frame's motion at the end of a step with the angular acceleration Ω̇₁, by the same formulas as x:
-    /// (1−α_m) â₁ + α_m â₀ = (1−α_f) Ω̇₁ + α_f Ω̇₀. Returns it with â₁.
+    /// The frame's motion at the end of a step with the angular acceleration Ω̇₁, by the same formulas as x. Returns it
+    /// with the integrator's acceleration.
     fn frame(&self, state: &State, step: f64, end_rate: f64) -> (Spin, f64) {
-        let super::Scheme { alpha_m, alpha_f, beta, gamma } = self.scheme;
+        let Scheme { beta, gamma, .. } = self.scheme;
         let Spin { angle, speed, acceleration } = state.spin;
-        let start = state.driven.rate;
-        let rate = ((1.0 - alpha_f) * end_rate + alpha_f * acceleration - alpha_m * start) / (1.0 - alpha_m);
+        let (start, mean) = (state.driven.rate, self.scheme.mean());
+        let rate = mean.end * end_rate + mean.start * acceleration + mean.before * start;
         let spin = Spin {
             angle: angle + step * (speed + step * ((0.5 - beta) * start + beta * rate)),
             speed: speed + step * ((1.0 - gamma) * start + gamma * rate),
@@ -136,19 +119,22 @@ impl GeneralisedAlpha {
         (spin, rate)
     }
 
-    /// x₁, ẋ₁ and ẍ₁ = ((1−α_m) a₁ + α_m a₀ − α_f ẍ₀)/(1−α_f).
-    fn end_of_step(&self, system: &System, state: &State, step: f64, driven: &mut DrivenStep) {
-        let super::Scheme { alpha_m, alpha_f, .. } = self.scheme;
+    /// e with what the step matrix of the speed Ω_w leaves out, −(Ω − Ω_w) (G ẋ₁ + K_c x₁) − Ω̇ K_s x₁, at the motion of
+    /// the last pass.
+    fn find_load(&mut self, system: &System, step: f64, time: f64, spin: &Spin, driven: &mut DrivenStep) {
+        let matrix = self.matrices.at(system, self.scheme, step, time, spin);
+        let left_out = Spin { speed: spin.speed - matrix.speed(), ..*spin };
+        let DrivenStep { load, total, x, v, .. } = driven;
+        total.copy_from(load);
+        system.add_rotational(&left_out, [&*x, &*v], -1.0, &mut self.parts, total);
+    }
+
+    /// x₁ and ẋ₁.
+    fn end_of_step(&self, step: f64, driven: &mut DrivenStep) {
         let gain = self.scheme.gain(step);
-        debug_assert_eq!(self.a.len(), system.size());
         driven.x.copy_from(&self.x);
-        driven.x.axpy(gain.position, &self.a, 1.0);
+        driven.x.axpy(gain.position, &self.acceleration, 1.0);
         driven.v.copy_from(&self.v);
-        driven.v.axpy(gain.velocity, &self.a, 1.0);
-        let weight = 1.0 / (1.0 - alpha_f);
-        driven.acceleration.copy_from(&self.a);
-        driven.acceleration.scale_mut((1.0 - alpha_m) * weight);
-        driven.acceleration.axpy(alpha_m * weight, &state.a, 1.0);
-        driven.acceleration.axpy(-alpha_f * weight, &state.driven.acceleration, 1.0);
+        driven.v.axpy(gain.velocity, &self.acceleration, 1.0);
     }
 }

@@ -14,7 +14,8 @@ use rotordyn_linalg::small_dense::solve_in_place;
 const TOLERANCE: f64 = 1e-11;
 const MAX_ITERATIONS: usize = 25;
 
-/// The interface problem d = d̄ + β h² u, ḋ = ḋ̄ + γ h u, u = Ỹ f(d, ḋ) with Ỹ = (1−α_f) Y, and its buffers.
+/// The interface problem d = d̄ + b u, ḋ = ḋ̄ + c u, u = Y f(d, ḋ) with Y = W S⁻¹ Wᵀ and the step's gains b and c, and
+/// its buffers.
 ///
 /// Displacements, velocities and forces hold the interface rows, then one entry per internal coordinate.
 pub(super) struct InterfaceNewton {
@@ -22,12 +23,10 @@ pub(super) struct InterfaceNewton {
     free_d: Vec<f64>,
     free_d_rate: Vec<f64>,
     free_acceleration: Vec<f64>,
-    /// Acceleration u of the rows by the bearing forces, and the residual u − Ỹ f, then the correction.
+    /// Acceleration u of the rows by the bearing forces, and the residual u − Y f, then the correction.
     acceleration: Vec<f64>,
     correction: Vec<f64>,
     jacobian: Vec<f64>,
-    /// Ỹ at this step's speed, row-major.
-    pub compliance: Vec<f64>,
     d: Vec<f64>,
     d_rate: Vec<f64>,
     /// Bearing forces: the initial guess, then the solution.
@@ -49,7 +48,6 @@ impl InterfaceNewton {
             acceleration: vec![0.0; rows],
             correction: vec![0.0; rows],
             jacobian: vec![0.0; rows * rows],
-            compliance: vec![0.0; rows * rows],
             d: vec![0.0; places],
             d_rate: vec![0.0; places],
             force: vec![0.0; places],
@@ -59,7 +57,7 @@ impl InterfaceNewton {
         }
     }
 
-    /// d̄ = W (x̄ + β h² a) and ḋ̄ = W (v̄ + γ h a) with the acceleration a without bearing forces.
+    /// d̄ = W (x̂ + b a) and ḋ̄ = W (v̂ + c a) with the acceleration a without bearing forces.
     pub fn set_free_motion(&mut self, system: &System, [x, v, a]: [&DVector<f64>; 3], gain: &NewmarkGain) {
         system.to_interface(x, &mut self.free_d);
         system.to_interface(v, &mut self.free_d_rate);
@@ -78,7 +76,7 @@ impl InterfaceNewton {
         }
     }
 
-    /// Solves for the bearing forces from the guess in `force`.
+    /// Solves for the bearing forces from the guess in `force`; `compliance`: Y, row-major.
     ///
     /// # Errors
     /// No convergence within the largest number of iterations, a singular Jacobian, or NaN.
@@ -87,15 +85,16 @@ impl InterfaceNewton {
         system: &System,
         rotations: &[Rotation],
         gain: &NewmarkGain,
+        compliance: &[f64],
     ) -> Result<(), StepFailure> {
-        for (u, y) in self.acceleration.iter_mut().zip(self.compliance.chunks_exact(system.rows())) {
+        for (u, y) in self.acceleration.iter_mut().zip(compliance.chunks_exact(system.rows())) {
             *u = y.iter().zip(&self.force).map(|(y, f)| y * f).sum::<f64>();
         }
         let mut failure = StepFailure { row: 0, residual: f64::INFINITY, iterations: 0 };
         for iteration in 1..=MAX_ITERATIONS {
             self.iterations += 1;
             self.evaluate(system, rotations, gain);
-            self.linearise(system, gain);
+            self.linearise(system, gain, compliance);
             if !solve_in_place(&mut self.jacobian, &mut self.correction) {
                 return Err(failure);
             }
@@ -128,11 +127,11 @@ impl InterfaceNewton {
         );
     }
 
-    /// Residual u − Ỹ f and Jacobian I + Ỹ (β h² K + γ h C), with the tangents block by block.
-    fn linearise(&mut self, system: &System, gain: &NewmarkGain) {
+    /// Residual u − Y f and Jacobian I + Y (b K + c C), with the tangents block by block.
+    fn linearise(&mut self, system: &System, gain: &NewmarkGain, compliance: &[f64]) {
         let rows = system.rows();
         for r in 0..rows {
-            let y = &self.compliance[r * rows..(r + 1) * rows];
+            let y = &compliance[r * rows..(r + 1) * rows];
             self.correction[r] =
                 self.acceleration[r] - y.iter().zip(&self.force).map(|(y, f)| y * f).sum::<f64>();
             let line = &mut self.jacobian[r * rows..(r + 1) * rows];
@@ -175,7 +174,7 @@ impl InterfaceNewton {
     }
 
     /// Applies Newton's last correction to forces and displacements too, so that force and state agree:
-    /// f ← f + (β h² K + γ h C) Δ.
+    /// f ← f + (b K + c C) Δ.
     fn apply_last_correction(&mut self, system: &System, gain: &NewmarkGain) {
         let rows = system.rows();
         let (on_rows, on_internal) = self.force.split_at_mut(rows);
@@ -206,7 +205,7 @@ impl InterfaceNewton {
             for (k, tangent) in interface.internal_range().zip(tangents) {
                 let change: f64 = tangent.iter().zip(correction).map(|(k, by)| k * by).sum();
                 on_internal[k] += gain.position * change;
-                let acceleration = gain.force / system.internal_masses[k] * on_internal[k];
+                let acceleration = on_internal[k] / system.internal_masses[k];
                 self.d[rows + k] = self.free_d[rows + k] + gain.position * acceleration;
                 self.d_rate[rows + k] = self.free_d_rate[rows + k] + gain.velocity * acceleration;
             }
@@ -214,7 +213,7 @@ impl InterfaceNewton {
         self.set_row_motion(gain);
     }
 
-    /// d = d̄ + β h² u and ḋ = ḋ̄ + γ h u of the rows.
+    /// d = d̄ + b u and ḋ = ḋ̄ + c u of the rows.
     fn set_row_motion(&mut self, gain: &NewmarkGain) {
         for (r, u) in self.acceleration.iter().enumerate() {
             self.d[r] = self.free_d[r] + gain.position * u;

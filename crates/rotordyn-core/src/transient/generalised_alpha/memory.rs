@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::driven_buffers::{DrivenMemory, DrivenStep};
-use super::effective_matrix::{EffectiveMatrices, Inversions};
+use super::step_matrix::{Inversions, StepMatrices};
 use super::{GeneralisedAlpha, Scheme};
 use crate::transient::system::System;
 
@@ -42,7 +42,7 @@ impl GeneralisedAlpha {
         let mut out = Self::new(system, scheme);
         out.previous_force.copy_from_slice(&memory.previous_force);
         out.previous_step = memory.previous_step;
-        out.matrices = EffectiveMatrices::repeat(system, scheme, &memory.inversions);
+        out.matrices = StepMatrices::repeat(system, scheme, &memory.inversions);
         let driven = system.drive.as_ref().zip(memory.driven.as_ref());
         out.driven = driven.map(|(drive, memory)| DrivenStep::after(drive, memory));
         out.newton.iterations = memory.iterations;

@@ -29,12 +29,29 @@ impl Scheme {
     /// Newmark's average acceleration, γ = ½, β = ¼.
     pub const NEWMARK: Self = Self { alpha_m: 0.0, alpha_f: 0.0, beta: 0.25, gamma: 0.5 };
 
-    /// How displacement, velocity and the acceleration of internal coordinates at the end of a step of length h follow from the end's forces:
-    /// β h², γ h and (1−α_f)/(1−α_m).
+    /// Position and velocity at the end of a step of length h by the accelerations ẍ₁ there: g β h² and g γ h with
+    /// g = (1−α_f)/(1−α_m).
     pub(super) fn gain(&self, step: f64) -> NewmarkGain {
-        let force = (1.0 - self.alpha_f) / (1.0 - self.alpha_m);
-        NewmarkGain { position: self.beta * step * step, velocity: self.gamma * step, force }
+        let by_end = self.mean().end;
+        NewmarkGain { position: by_end * self.beta * step * step, velocity: by_end * self.gamma * step }
     }
+
+    /// a₁ of (1−α_m) a₁ + α_m a₀ = (1−α_f) ẍ₁ + α_f ẍ₀.
+    pub(super) fn mean(&self) -> Mean {
+        let weight = 1.0 / (1.0 - self.alpha_m);
+        Mean {
+            end: (1.0 - self.alpha_f) * weight,
+            start: self.alpha_f * weight,
+            before: -self.alpha_m * weight,
+        }
+    }
+}
+
+/// The integrator's acceleration a₁ = `end` ẍ₁ + `start` ẍ₀ + `before` a₀.
+pub(super) struct Mean {
+    pub end: f64,
+    pub start: f64,
+    pub before: f64,
 }
 
 /// Newton iteration that did not converge, for the driver that halves the step.

@@ -46,10 +46,7 @@ pub struct DrivenState {
     /// Load of the coupling at the state (see [`super::coupling`]).
     #[serde(with = "vector")]
     pub load: DVector<f64>,
-    /// ẍ of the equations of motion at the state's time (the integrator's own acceleration may be shifted in time).
-    #[serde(with = "vector")]
-    pub acceleration: DVector<f64>,
-    /// Rotational acceleration of the integrator, to `spin.acceleration` as `a` to `acceleration`.
+    /// Rotational acceleration of the integrator, to `spin.acceleration` as the state's `a` to `acceleration`.
     pub rate: f64,
 }
 
