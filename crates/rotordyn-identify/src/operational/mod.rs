@@ -56,6 +56,7 @@ pub fn identify_operational(
     settings: &OperationalSettings,
 ) -> Result<OperationalModes, IdentifyError> {
     let mut data = Prepared::new(record, settings)?;
+    let impulsive = impulsive_warning(&data, record);
     let mut harmonics = Vec::new();
     let shaft = orders::shaft_angle(&data, &settings.shaft, settings.speed_tolerance);
     let shaft_speed = shaft.as_ref().map(|(_, speed)| *speed);
@@ -101,6 +102,7 @@ pub fn identify_operational(
     let channels_of_spectrum = independent_channels(&data, fdd::MAX_CHANNELS);
     let spectrum = fdd::decomposition(&data, &channels_of_spectrum, &harmonics)?;
     found.warnings.extend(unexplained_peaks(&spectrum, &found.modes));
+    found.warnings.extend(impulsive);
     if found.modes.is_empty() && found.warnings.is_empty() {
         return Err(IdentifyError::NoMode {
             from: data.band[0],
@@ -126,6 +128,26 @@ pub fn identify_operational(
         harmonics,
         dropped: found.dropped,
         warnings: found.warnings,
+    })
+}
+
+/// Excess kurtosis from which a response is one of hits; 0 under random forces, whatever the modes.
+const IMPULSIVE_KURTOSIS: f64 = 5.0;
+
+/// Warning of a record of hits or bursts.
+fn impulsive_warning(data: &Prepared, record: &OutputRecord) -> Option<String> {
+    let kurtosis = |samples: &Vec<f64>| {
+        let n = samples.len() as f64;
+        let moment = |power: i32| samples.iter().map(|x| x.powi(power)).sum::<f64>() / n;
+        moment(4) / moment(2).powi(2) - 3.0
+    };
+    let all = data.samples.iter().map(kurtosis).zip(&record.dofs);
+    let (largest, dof) = all.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    (largest > IMPULSIVE_KURTOSIS).then(|| {
+        format!(
+            "the response {dof} is impulsive (excess kurtosis {largest:.1}, random forces give 0): standard errors hold for \
+             random forces; for an impact test add the channel of the force"
+        )
     })
 }
 

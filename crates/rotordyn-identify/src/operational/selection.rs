@@ -43,8 +43,12 @@ const SINE_DAMPING: f64 = 3e-4;
 /// √(1/(a T)) at best, 14 %.
 const MIN_DECAYS: f64 = 50.0;
 
+/// Poles of a cluster whose variance is computed; the one with the least is the mode.
+const TRIED: usize = 5;
+
 /// A pole of a cluster with its model.
 struct Chosen<'a> {
+    cluster: usize,
     candidate: &'a Candidate,
     model: &'a Realisation,
     vector: usize,
@@ -55,21 +59,20 @@ struct Chosen<'a> {
 /// Selects the modes.
 pub(super) fn select(search: &Search) -> Result<Selection, IdentifyError> {
     let Search { space, orders, candidates, .. } = search;
-    let mut found: Vec<(&Candidate, f64)> = clusters(candidates, orders.len())
-        .into_iter()
-        .filter(|c| c.score > MIN_SUPPORT * orders.len() as f64)
-        .filter_map(|c| {
-            let members = c.members.iter().map(|&k| &candidates[k]);
-            let nearest = members.min_by(|a, b| {
-                let off = |x: &Candidate| (x.pole.value - c.value).norm();
-                off(a).total_cmp(&off(b))
-            });
-            nearest.map(|n| (n, c.score / orders.len() as f64))
-        })
-        .collect();
-    found.sort_by(|a, b| a.0.pole.value.im.total_cmp(&b.0.pole.value.im));
+    // Of every cluster the poles nearest to its median, with its support.
+    let mut found: Vec<(usize, &Candidate, f64)> = Vec::new();
+    for (k, cluster) in clusters(candidates, orders.len()).into_iter().enumerate() {
+        if cluster.score <= MIN_SUPPORT * orders.len() as f64 {
+            continue;
+        }
+        let mut members: Vec<&Candidate> = cluster.members.iter().map(|&k| &candidates[k]).collect();
+        let off = |x: &Candidate| (x.pole.value - cluster.value).norm();
+        members.sort_by(|a, b| off(a).total_cmp(&off(b)));
+        let support = cluster.score / orders.len() as f64;
+        found.extend(members.into_iter().take(TRIED).map(|member| (k, member, support)));
+    }
     let mut models: Vec<(usize, Realisation)> = Vec::new();
-    for (candidate, _) in &found {
+    for (_, candidate, _) in &found {
         if !models.iter().any(|(order, _)| *order == candidate.order)
             && let Some(model) = space.realisation(orders[candidate.order])?
         {
@@ -78,19 +81,31 @@ pub(super) fn select(search: &Search) -> Result<Selection, IdentifyError> {
     }
     let chosen: Vec<Chosen> = found
         .iter()
-        .filter_map(|(candidate, support)| {
+        .filter_map(|(cluster, candidate, support)| {
             let model = &models.iter().find(|(order, _)| *order == candidate.order)?.1;
             let off = |k: &usize| (space.pole(model.mu[*k]) - candidate.pole.value).norm();
             let vector = (0..model.mu.len()).min_by(|a, b| off(a).total_cmp(&off(b)))?;
             let size = |k: &usize| candidate.shape[*k].norm();
             let largest = (0..candidate.shape.len()).max_by(|a, b| size(a).total_cmp(&size(b)))?;
-            Some(Chosen { candidate, model, vector, largest, support: *support })
+            Some(Chosen { cluster: *cluster, candidate, model, vector, largest, support: *support })
         })
         .collect();
     let places: Vec<Place> =
         chosen.iter().map(|c| Place { model: c.model, vector: c.vector, largest: c.largest }).collect();
     let spread = variances(space, search.correlations, search.rows, &places);
-    let modes: Vec<OperationalMode> = chosen.iter().zip(&spread).map(|(c, v)| mode(search, c, v)).collect();
+    // A spurious pole beside a mode at one order inflates its variance there.
+    let variance = |k: usize| spread[k].pole[0] + spread[k].pole[1];
+    let mut best: Vec<usize> = Vec::new();
+    for k in 0..chosen.len() {
+        match best.iter_mut().find(|b| chosen[**b].cluster == chosen[k].cluster) {
+            Some(known) if variance(k) < variance(*known) => *known = k,
+            Some(_) => {}
+            None => best.push(k),
+        }
+    }
+    let mut modes: Vec<OperationalMode> =
+        best.into_iter().map(|k| mode(search, &chosen[k], &spread[k])).collect();
+    modes.sort_by(|a, b| a.pole.im.total_cmp(&b.pole.im));
     Ok(judge(search, modes))
 }
 

@@ -95,7 +95,7 @@ impl Subspace {
         (0..self.channels).map(|c| model.o.row(c).iter().zip(phi.iter()).map(|(o, p)| p * *o).sum()).collect()
     }
 
-    /// Poles of all orders in a band with their shapes; a pole of a sine may have a damping slightly below 0.
+    /// Poles of all orders in a band with their shapes.
     pub fn candidates(
         &self,
         orders: &[usize],
@@ -109,9 +109,8 @@ impl Subspace {
                 let value = self.pole(model.mu[k]);
                 let hz = value.im / std::f64::consts::TAU;
                 let damping = -value.re / value.norm();
-                if !(value.im > 0.0 && hz >= band[0] && hz <= band[1])
-                    || !(damping > 0.0 && damping < largest_damping)
-                {
+                let inside = value.im > 0.0 && hz >= band[0] && hz <= band[1];
+                if !inside || damping <= 0.0 || damping >= largest_damping {
                     continue;
                 }
                 let shape = normalise_largest(self.shape(&model, k));
