@@ -61,11 +61,15 @@ pub(super) fn select(search: &Search) -> Result<Selection, IdentifyError> {
     let Search { space, orders, candidates, .. } = search;
     // Of every cluster the poles nearest to its median, with its support.
     let mut found: Vec<(usize, &Candidate, f64)> = Vec::new();
-    for (k, cluster) in clusters(candidates, orders.len()).into_iter().enumerate() {
-        if cluster.score <= MIN_SUPPORT * orders.len() as f64 {
-            continue;
-        }
+    let mut stable = clusters(candidates, orders.len());
+    stable.retain(|cluster| cluster.score > MIN_SUPPORT * orders.len() as f64);
+    // Orders with less room than all modes and some noise need give weak modes a bias without a variance.
+    let enough = 3 * stable.len();
+    for (k, cluster) in stable.into_iter().enumerate() {
         let mut members: Vec<&Candidate> = cluster.members.iter().map(|&k| &candidates[k]).collect();
+        if members.iter().any(|m| orders[m.order] >= enough) {
+            members.retain(|m| orders[m.order] >= enough);
+        }
         let off = |x: &Candidate| (x.pole.value - cluster.value).norm();
         members.sort_by(|a, b| off(a).total_cmp(&off(b)));
         let support = cluster.score / orders.len() as f64;
