@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use rotordyn::error::Error;
 use rotordyn::figures;
+use rotordyn::identify::operational::OperationalSettings;
 use rotordyn::identify::{ModalIdentification, Settings, identify, quantity_of};
 use rotordyn::io::hdf5::{Store, open_reader};
 use rotordyn::io::measured::impact_run;
@@ -26,6 +27,7 @@ use super::identify_tables::tables;
 use super::limits::limits;
 use super::machine::ModelSource;
 use super::measured::range;
+use super::operational;
 use super::store::FILE;
 use super::terminal::Terminal;
 use super::{Outcome, print_written_files};
@@ -45,7 +47,21 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     let start = Instant::now();
     let spinner = terminal.spinner("identify");
     let (mut warnings, mut left_out) = (Vec::new(), Vec::new());
-    let outcome = identify_modes(args, &test, &settings, &mut warnings, &mut left_out);
+    let outcome = match read_measured(args, &test, &mut warnings, &mut left_out) {
+        Ok(Measured::Responses(path, file)) => {
+            spinner.finish_and_clear();
+            left_out.into_iter().for_each(|text| terminal.warn_of(Code::LeftOut, text));
+            warnings.into_iter().for_each(|warning| terminal.warn_of(Code::Identification, warning));
+            let settings = OperationalSettings {
+                band: settings.band,
+                max_order: settings.max_order,
+                ..OperationalSettings::default()
+            };
+            return operational::run(args, &path, file, settings, terminal);
+        }
+        Ok(Measured::Frfs(all, from_hits)) => identify_modes(args, all, from_hits, &settings, &mut warnings),
+        Err(failure) => Err(failure),
+    };
     spinner.finish_and_clear();
     left_out.into_iter().for_each(|text| terminal.warn_of(Code::LeftOut, text));
     let (all, frfs, found) = match outcome {
@@ -75,12 +91,11 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
 /// FRF matrix of the files and its modes; warnings are also collected on failure.
 fn identify_modes(
     args: &IdentifyArgs,
-    test: &ImpactTest,
+    all: MeasuredData,
+    from_hits: bool,
     settings: &Settings,
     warnings: &mut Vec<String>,
-    left_out: &mut Vec<String>,
 ) -> Result<(MeasuredData, FrfMatrix, ModalIdentification), Failure> {
-    let (all, from_hits) = read_frfs(args, test, warnings, left_out)?;
     // With several files the channel names already contain the file name.
     let with_context = |error: Error| match &args.files[..] {
         [only] => with_file_name(only, error),
@@ -206,13 +221,21 @@ fn settings(args: &IdentifyArgs) -> Result<Settings, Failure> {
     })
 }
 
-/// Reads all files, converts time records to FRFs; also returns whether any FRF comes from hits.
-fn read_frfs(
+/// What the files hold.
+enum Measured {
+    /// FRFs, also of hits, and whether any comes from hits.
+    Frfs(MeasuredData, bool),
+    /// A record of responses without a force.
+    Responses(PathBuf, MeasuredData),
+}
+
+/// Reads all files, converts time records of hits to FRFs.
+fn read_measured(
     args: &IdentifyArgs,
     test: &ImpactTest,
     warnings: &mut Vec<String>,
     left_out: &mut Vec<String>,
-) -> Result<(MeasuredData, bool), Failure> {
+) -> Result<Measured, Failure> {
     let mapping = args.mapping.as_ref().map(|path| mapping::read(path)).transpose()?;
     let model = match &args.model {
         Some(path) => {
@@ -271,6 +294,10 @@ fn read_frfs(
         }
         let has_frf = file.records.iter().any(|r| r.kind == Kind::Frf);
         let has_time = file.records.iter().any(|r| r.kind == Kind::Time);
+        let of_hits = test.force.is_some() || test.block.is_some() || test.time_constant.is_some();
+        if !has_frf && args.files.len() == 1 && !of_hits && operational::is_without_force(&file) {
+            return Ok(Measured::Responses(path.clone(), file));
+        }
         if has_frf || !has_time {
             add_records(args, path, file.records, &mut all);
         } else {
@@ -299,7 +326,17 @@ fn read_frfs(
         warnings
             .push(format!("without --model the stations of the mapping are numbered: {}", named.join(", ")));
     }
-    Ok((all, from_hits))
+    if args.speed.is_some()
+        || args.shaft.tacho.is_some()
+        || args.shaft.track.is_some()
+        || !args.orders.is_empty()
+    {
+        warnings.push(
+            "--speed, --tacho, --track and --orders apply to a record without a force; they are not used"
+                .into(),
+        );
+    }
+    Ok(Measured::Frfs(all, from_hits))
 }
 
 /// FRFs of a simulated impact test.

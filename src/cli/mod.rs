@@ -34,6 +34,8 @@ pub(crate) mod limits;
 pub(crate) mod machine;
 mod measured;
 mod noisy_frf;
+mod operational;
+mod operational_tables;
 pub(crate) mod outcome;
 mod previous_files;
 mod printed;

@@ -313,7 +313,7 @@ fn bad_hits_are_reported() {
     std::fs::write(folder.join("rate.toml"), "rate = \"4096 Hz\"\n").unwrap();
     let cases: Vec<(&str, Vec<&str>, Vec<&str>)> = vec![
         ("all is well", vec!["good.npz"], vec![]),
-        ("no force", vec!["no_force.npz"], vec![]),
+        ("no force", vec!["no_force.npz"], vec!["--block", "2 s"]),
         ("a force in volts", vec!["volts.npz"], vec![]),
         ("the force named", vec!["volts.npz"], vec!["--force", "hammer"]),
         ("no such force", vec!["volts.npz"], vec!["--force", "hamer"]),

@@ -31,6 +31,14 @@ pub enum IdentifyError {
         "no mode was found in {from:.3} .. {to:.3} Hz: of {poles} poles in {orders} orders none is stable; choose a band with a resonance, raise the order, or check the coherence"
     )]
     NoMode { from: f64, to: f64, poles: usize, orders: usize },
+    #[error(
+        "the record of response {response} is NaN or infinite at {time:.6} s; leave the channel out, or choose a time range without it"
+    )]
+    NotFiniteSample { response: String, time: f64 },
+    #[error(
+        "{duration:.3} s of record are too short for modes from {lowest:.3} Hz on: {needed:.3} s or more are needed for standard errors; record longer, or raise the lower end of the band"
+    )]
+    ShortRecord { duration: f64, needed: f64, lowest: f64 },
     #[error("{what}: {reason}")]
     Setting { what: &'static str, reason: String },
     #[error("an eigenvalue computation failed: {0}")]

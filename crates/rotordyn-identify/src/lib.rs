@@ -12,6 +12,7 @@
 //! | [`mac`](mod@mac) | MAC, FRAC, FDAC, phase collinearity |
 //! | [`sdof`] | single-degree-of-freedom (SDOF) circle and peak fit of one mode |
 //! | `whirl` | whirl direction from x and y |
+//! | [`operational`] | modes from responses alone: SSI-cov, FDD, harmonics of the shaft |
 //!
 //! H(s) = s^p \[Σ_r (ψ_r l_rᵀ/(s − λ_r) + conj. pair) + U + V/s²\]: ψ is the mode shape (right eigenvector),
 //! l the modal participation (left eigenvector). No reciprocity is assumed: on a rotating machine l is not
@@ -23,6 +24,7 @@ mod error;
 mod lsfd;
 pub mod mac;
 mod mode_selection;
+pub mod operational;
 mod plscf;
 mod pole_selection;
 mod refine;

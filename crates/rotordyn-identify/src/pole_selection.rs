@@ -26,12 +26,17 @@ const DUPLICATE_DISTANCE: f64 = 0.8;
 /// Ratio of second to first singular value of the residues from which there is a second mode.
 const SECOND_MODE_RATIO: f64 = 0.2;
 
-struct Cluster {
-    value: Complex64,
+/// Similar poles of many orders.
+pub(super) struct Cluster {
+    /// Median of the poles.
+    pub value: Complex64,
     participation: Vec<Complex64>,
-    score: f64,
+    /// Sum over the orders of the similarity to the seed.
+    pub score: f64,
     /// Mean number of poles per order in the cluster.
     multiplicity: f64,
+    /// Indices of the candidates.
+    pub members: Vec<usize>,
 }
 
 /// Selected poles in order of frequency: start values of the refinement.
@@ -87,9 +92,14 @@ pub(super) fn select_poles(data: &Data, candidates: &[Candidate], orders: usize)
     poles
 }
 
-fn clusters(candidates: &[Candidate], orders: usize) -> Vec<Cluster> {
-    let mut sorted: Vec<&Candidate> = candidates.iter().collect();
-    sorted.sort_by(|a, b| a.pole.value.im.total_cmp(&b.pole.value.im).then(a.order.cmp(&b.order)));
+/// Clusters of similar poles, in order of their support.
+pub(super) fn clusters(candidates: &[Candidate], orders: usize) -> Vec<Cluster> {
+    let mut places: Vec<usize> = (0..candidates.len()).collect();
+    places.sort_by(|&a, &b| {
+        let (a, b) = (&candidates[a], &candidates[b]);
+        a.pole.value.im.total_cmp(&b.pole.value.im).then(a.order.cmp(&b.order))
+    });
+    let sorted: Vec<&Candidate> = places.iter().map(|&k| &candidates[k]).collect();
     let n = sorted.len();
     // Similarity 0..1 with the neighbours in frequency.
     let mut similar: Vec<Vec<(usize, f64)>> = vec![Vec::new(); n];
@@ -127,7 +137,10 @@ fn clusters(candidates: &[Candidate], orders: usize) -> Vec<Cluster> {
             return out;
         }
         let members: Vec<usize> = similar[seed].iter().map(|(j, _)| *j).filter(|&j| alive[j]).collect();
-        out.push(cluster(&sorted, &members, seed, score));
+        out.push(Cluster {
+            members: members.iter().map(|&j| places[j]).collect(),
+            ..cluster(&sorted, &members, seed, score)
+        });
         members.iter().for_each(|&j| alive[j] = false);
     }
 }
@@ -146,6 +159,7 @@ fn cluster(sorted: &[&Candidate], members: &[usize], seed: usize, score: f64) ->
         participation: sorted[seed].pole.participation.clone(),
         score,
         multiplicity: members.len() as f64 / seen.len() as f64,
+        members: Vec::new(),
     }
 }
 

@@ -69,43 +69,43 @@ fn diagram(found: &ModalIdentification) -> Document<'_> {
         .texts("stability", found.diagram.iter().map(|p| p.stability.label()))
 }
 
-/// Complex mode shapes at the points of the side (responses or references) with more DOFs, for universal
-/// files; DOFs without a direction are assigned to z.
+/// Complex mode shapes at the points of the side (responses or references) with more DOFs, for universal files.
 pub fn mode_shapes(found: &ModalIdentification, geometry: &Geometry) -> MeasuredData {
     let shape = |(k, mode): (usize, &Mode)| {
         let (dofs, values) = found.larger_side_shape(mode);
-        let mut nodes: Vec<i64> = dofs.iter().map(|d| d.node).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        let components = if dofs.iter().any(|d| d.is_rotation()) { 6 } else { 3 };
-        let mut out = vec![Complex64::default(); components * nodes.len()];
-        for (dof, value) in dofs.iter().zip(values) {
-            let Ok(node) = nodes.binary_search(&dof.node) else { continue };
-            let (axis, sign) = match dof.direction {
-                0 => (2, 1.0),
-                d => (usize::from(d.unsigned_abs()) - 1, f64::from(d.signum())),
-            };
-            out[components * node + axis] = value * sign;
-        }
-        Shape {
-            name: format!("mode {} {:.3} Hz", k + 1, mode.frequency_hz()),
-            analysis: Analysis::ComplexMode {
-                eigenvalue: mode.pole,
-                modal_a: 0.0.into(),
-                modal_b: 0.0.into(),
-            },
-            number: k as i64 + 1,
-            components,
-            nodes,
-            values: out,
-            complex: true,
-            unit: String::new(),
-        }
+        shape_at_points(k, dofs, values, mode.pole)
     };
     MeasuredData {
         title: "identified modes".into(),
         shapes: found.modes.iter().enumerate().map(shape).collect(),
         geometry: geometry.clone(),
         ..MeasuredData::default()
+    }
+}
+
+/// The shape of mode k, counted from 0, at the points of its DOFs; DOFs without a direction are assigned to z.
+pub(crate) fn shape_at_points(k: usize, dofs: &[Dof], values: &[Complex64], pole: Complex64) -> Shape {
+    let mut nodes: Vec<i64> = dofs.iter().map(|d| d.node).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    let components = if dofs.iter().any(|d| d.is_rotation()) { 6 } else { 3 };
+    let mut out = vec![Complex64::default(); components * nodes.len()];
+    for (dof, value) in dofs.iter().zip(values) {
+        let Ok(node) = nodes.binary_search(&dof.node) else { continue };
+        let (axis, sign) = match dof.direction {
+            0 => (2, 1.0),
+            d => (usize::from(d.unsigned_abs()) - 1, f64::from(d.signum())),
+        };
+        out[components * node + axis] = value * sign;
+    }
+    Shape {
+        name: format!("mode {} {:.3} Hz", k + 1, pole.im / std::f64::consts::TAU),
+        analysis: Analysis::ComplexMode { eigenvalue: pole, modal_a: 0.0.into(), modal_b: 0.0.into() },
+        number: k as i64 + 1,
+        components,
+        nodes,
+        values: out,
+        complex: true,
+        unit: String::new(),
     }
 }

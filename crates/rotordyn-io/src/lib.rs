@@ -22,6 +22,7 @@ pub mod mat;
 pub mod measured;
 pub mod model_file_edit;
 pub mod npy;
+pub mod operational_modes;
 #[cfg(feature = "hdf5")]
 pub mod results_file;
 pub mod run_export;

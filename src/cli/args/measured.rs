@@ -48,7 +48,8 @@ pub enum EstimatorName {
 /// Arguments of `identify`.
 #[derive(Args, Clone, Debug)]
 pub struct IdentifyArgs {
-    /// Files with FRFs or time records of an impact (hammer) test; also results.h5
+    /// Files with FRFs or time records of an impact (hammer) test; also results.h5; or one record of responses without a
+    /// force channel: modes of the machine in operation
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Mapping file (TOML): station and direction of every channel; units and rates missing in the files
@@ -83,6 +84,15 @@ pub struct IdentifyArgs {
     /// Sampling rate of time records whose file does not state it, such as "12 kHz"
     #[arg(long, value_name = "RATE")]
     pub rate: Option<String>,
+    /// Shaft speed of a record in operation, such as "1797 rpm": its harmonics are subtracted [default: as stated in the file;
+    /// else harmonics are recognised by their amplitude distribution]
+    #[arg(long, value_name = "SPEED", help_heading = "Shaft", conflicts_with_all = ["tacho", "track"])]
+    pub speed: Option<String>,
+    /// Orders of sines beside the multiples of the speed, such as the ball-pass order: 3.57,5.43
+    #[arg(long, value_name = "LIST", help_heading = "Shaft", value_delimiter = ',')]
+    pub orders: Vec<String>,
+    #[command(flatten)]
+    pub shaft: ShaftArgs,
     /// Folder for the results [default: out/identify_NAME]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

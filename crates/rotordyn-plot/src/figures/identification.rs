@@ -9,7 +9,8 @@ use super::{Named, write_plain};
 use crate::FigureError;
 use crate::{Figure, Frf, FrfCurve, Matrix, PoleStability, Stabilisation, WireShape, Wireframe};
 use rotordyn_core::model::Quantity;
-use rotordyn_identify::{ModalIdentification, Mode, Stability};
+use rotordyn_identify::operational::{OperationalMode, OperationalModes};
+use rotordyn_identify::{DiagramPole, ModalIdentification, Mode, Stability};
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::record::{Dof, FrfMatrix, Geometry};
 
@@ -27,16 +28,76 @@ pub fn draw(
     title: &str,
     folder: &Path,
 ) -> Result<Vec<PathBuf>, FigureError> {
-    let mut figures = vec![stabilisation(found, title)];
+    let selected: Vec<f64> = found.modes.iter().map(Mode::frequency_hz).collect();
+    let mut figures = vec![stabilisation(
+        &found.diagram,
+        selected.clone(),
+        found.frequencies.clone(),
+        mode_indicator(found),
+        title,
+    )];
     if found.modes.len() > 1 && found.larger_side_shape(&found.modes[0]).0.len() > 1 {
-        figures.push(auto_mac(found, title));
+        let side = if found.references.len() > found.responses.len() { "references" } else { "responses" };
+        let side = format!("the {} {side}", found.larger_side_shape(&found.modes[0]).0.len());
+        figures.push(auto_mac(&selected, found.auto_mac(), &side, title));
     }
     figures.extend(fits(found, frfs, title));
-    figures.extend(shapes(found, geometry, title));
+    let modes: Vec<DrawnMode> = found
+        .modes
+        .iter()
+        .map(|m| {
+            let (dofs, shape) = found.larger_side_shape(m);
+            DrawnMode { hz: m.frequency_hz(), zeta: m.damping_ratio(), dofs, shape }
+        })
+        .collect();
+    figures.extend(shapes(&modes, geometry, title));
     write_plain(figures, folder)
 }
 
-fn stabilisation(found: &ModalIdentification, title: &str) -> Named {
+/// Draws the figures of an output-only identification; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_operational(
+    found: &OperationalModes,
+    geometry: &Geometry,
+    title: &str,
+    folder: &Path,
+) -> Result<Vec<PathBuf>, FigureError> {
+    let selected: Vec<f64> = found.modes.iter().map(OperationalMode::frequency_hz).collect();
+    let curves = found.spectrum.values.iter().map(|v| v.iter().map(|v| v.sqrt()).collect()).collect();
+    let mut figures = vec![stabilisation(
+        &found.diagram,
+        selected.clone(),
+        found.spectrum.frequencies.clone(),
+        curves,
+        title,
+    )];
+    if found.modes.len() > 1 && found.dofs.len() > 1 {
+        let side = format!("the {} channels", found.dofs.len());
+        figures.push(auto_mac(&selected, found.auto_mac(), &side, title));
+    }
+    let modes: Vec<DrawnMode> = found
+        .modes
+        .iter()
+        .map(|m| DrawnMode {
+            hz: m.frequency_hz(),
+            zeta: m.damping_ratio(),
+            dofs: &found.dofs,
+            shape: &m.shape,
+        })
+        .collect();
+    figures.extend(shapes(&modes, geometry, title));
+    write_plain(figures, folder)
+}
+
+fn stabilisation(
+    diagram: &[DiagramPole],
+    selected: Vec<f64>,
+    hz: Vec<f64>,
+    curves: Vec<Vec<f64>>,
+    title: &str,
+) -> Named {
     let state = |stability: Stability| match stability {
         Stability::New => PoleStability::New,
         Stability::Frequency => PoleStability::Frequency,
@@ -44,16 +105,16 @@ fn stabilisation(found: &ModalIdentification, title: &str) -> Named {
         Stability::Shape => PoleStability::Shape,
         Stability::Stable => PoleStability::Stable,
     };
-    let hz = |pole: Complex64| pole.im / std::f64::consts::TAU;
+    let pole_hz = |pole: Complex64| pole.im / std::f64::consts::TAU;
     let figure = Stabilisation {
         title: "Stabilisation diagram".into(),
         note: format!(
             "stable: within 1 % in frequency, 5 % in damping, MAC 0.95 of the previous order; {title}"
         ),
-        poles: found.diagram.iter().map(|p| (hz(p.value), p.order, state(p.stability))).collect(),
-        hz: found.frequencies.clone(),
-        curves: mode_indicator(found),
-        selected: found.modes.iter().map(Mode::frequency_hz).collect(),
+        poles: diagram.iter().map(|p| (pole_hz(p.value), p.order, state(p.stability))).collect(),
+        hz,
+        curves,
+        selected,
     };
     ("stabilisation".into(), Figure::Stabilisation(figure))
 }
@@ -81,15 +142,14 @@ fn mode_indicator(found: &ModalIdentification) -> Vec<Vec<f64>> {
     out
 }
 
-fn auto_mac(found: &ModalIdentification, title: &str) -> Named {
-    let names: Vec<String> = found.modes.iter().map(|m| format!("{:.2} Hz", m.frequency_hz())).collect();
-    let side = if found.references.len() > found.responses.len() { "references" } else { "responses" };
+fn auto_mac(hz: &[f64], mac: Vec<Vec<f64>>, side: &str, title: &str) -> Named {
+    let names: Vec<String> = hz.iter().map(|hz| format!("{hz:.2} Hz")).collect();
     let figure = Matrix {
         title: "Auto-MAC of the identified mode shapes".into(),
-        note: format!("{title}; over the {} {side}", found.larger_side_shape(&found.modes[0]).0.len()),
+        note: format!("{title}; over {side}"),
         rows: names.clone(),
         columns: names,
-        value: found.auto_mac().concat(),
+        value: mac.concat(),
         quantity: "MAC".into(),
         ..Matrix::default()
     };
@@ -148,16 +208,23 @@ fn name(quantity: Quantity) -> &'static str {
     }
 }
 
+/// A mode on the wireframe.
+struct DrawnMode<'a> {
+    hz: f64,
+    zeta: f64,
+    dofs: &'a [Dof],
+    shape: &'a [Complex64],
+}
+
 /// Mode shapes on the wireframe, if the geometry contains all measured points.
-fn shapes(found: &ModalIdentification, geometry: &Geometry, title: &str) -> Option<Named> {
-    let first = found.modes.first()?;
-    let (dofs, _) = found.larger_side_shape(first);
+fn shapes(modes: &[DrawnMode], geometry: &Geometry, title: &str) -> Option<Named> {
+    let dofs = modes.first()?.dofs;
     let index = |number: i64| geometry.nodes.iter().position(|n| n.number == number);
     if geometry.nodes.is_empty() || !dofs.iter().all(|d| index(d.node).is_some()) {
         return None;
     }
-    let shape = |(k, mode): (usize, &Mode)| {
-        let (dofs, values) = found.larger_side_shape(mode);
+    let shape = |(k, mode): (usize, &DrawnMode)| {
+        let (dofs, values) = (mode.dofs, mode.shape);
         // Rotate the phase to maximise the real part.
         let square: Complex64 = values.iter().map(|v| v * v).sum();
         let turn = Complex64::from_polar(1.0, -0.5 * square.arg());
@@ -172,8 +239,7 @@ fn shapes(found: &ModalIdentification, geometry: &Geometry, title: &str) -> Opti
             };
             motion[at][axis] = sign * (turn * value).re;
         }
-        let zeta = 100.0 * mode.damping_ratio();
-        WireShape { title: format!("{}: {:.2} Hz, {zeta:.2} %", k + 1, mode.frequency_hz()), motion }
+        WireShape { title: format!("{}: {:.2} Hz, {:.2} %", k + 1, mode.hz, 100.0 * mode.zeta), motion }
     };
     let stroke = |stroke: &Vec<i64>| stroke.iter().filter_map(|n| index(*n)).collect::<Vec<_>>();
     let figure = Wireframe {
@@ -181,7 +247,7 @@ fn shapes(found: &ModalIdentification, geometry: &Geometry, title: &str) -> Opti
         note: format!("{title}; real part at the phase of the largest deflection"),
         points: geometry.nodes.iter().map(|n| n.position).collect(),
         strokes: geometry.lines.iter().flat_map(|line| line.strokes.iter().map(stroke)).collect(),
-        shapes: found.modes.iter().enumerate().map(shape).collect(),
+        shapes: modes.iter().enumerate().map(shape).collect(),
     };
     Some(("mode_shapes".into(), Figure::Wireframe(figure)))
 }

@@ -1,0 +1,106 @@
+//! All modes are found, and nothing else.
+
+use rotordyn_identify::mac::mac;
+use rotordyn_identify::operational::{OperationalModes, OperationalSettings, identify_operational};
+use rotordyn_linalg::Complex64;
+
+use crate::machine::Machine;
+
+pub fn print(found: &OperationalModes) {
+    for m in &found.modes {
+        println!(
+            "{:9.4} ± {:.4} Hz  {:.4} ± {:.4} %  MPC {:.3}  support {:.2}  order {}  part {:.1e} {:?}",
+            m.frequency_hz(),
+            m.frequency_error,
+            100.0 * m.damping_ratio(),
+            100.0 * m.damping_error,
+            m.collinearity,
+            m.support,
+            m.order,
+            m.contribution,
+            m.notes,
+        );
+    }
+    println!(
+        "dropped {:#?}\nwarnings {:#?}\nharmonics {:#?}",
+        found.dropped, found.warnings, found.harmonics
+    );
+}
+
+/// Modes of the machine in the order of frequency; panics unless the found ones are these.
+pub fn check(machine: &Machine, found: &OperationalModes) {
+    check_shapes(machine, found, 0.98);
+}
+
+fn check_shapes(machine: &Machine, found: &OperationalModes, least_mac: f64) {
+    print(found);
+    assert_eq!(found.modes.len(), machine.modes.len());
+    for (k, m) in found.modes.iter().enumerate() {
+        let (_, zeta, shape) = &machine.modes[k];
+        let off = (m.frequency_hz() - machine.hz(k)).abs();
+        assert!(off < 4.0 * m.frequency_error && off < 5e-3 * machine.hz(k), "mode {k}: {off:.4} Hz");
+        let off = (m.damping_ratio() - zeta).abs();
+        assert!(off < 4.0 * m.damping_error && off < 0.5 * zeta, "mode {k}: damping {off:.5}");
+        let shape: Vec<Complex64> = shape.iter().map(|v| Complex64::from(*v)).collect();
+        let like = mac(&m.shape, &shape);
+        assert!(like > least_mac, "mode {k}: MAC {like:.4}");
+        assert!(m.contribution > 0.0 && m.contribution < 1.5, "mode {k}: part {:.3}", m.contribution);
+    }
+}
+
+/// Five modes of 0.3 to 3 % in 600 s, white and coloured forces.
+#[test]
+fn modes_of_a_machine_under_random_forces() {
+    let modes = [(12.0, 0.01), (31.0, 0.006), (47.0, 0.02), (61.0, 0.003), (88.0, 0.03)];
+    for (seed, colour) in [(1, 0.0), (2, 0.0), (3, 0.7), (4, 0.7)] {
+        let machine = Machine { colour, ..Machine::new(&modes, 6, 256.0, 600.0) };
+        let found = identify_operational(&machine.record(seed), &OperationalSettings::default()).unwrap();
+        check(&machine, &found);
+        assert!(found.warnings.is_empty(), "{:?}", found.warnings);
+        // The quick look has a peak at every mode, of its shape.
+        for (k, (_, zeta, shape)) in machine.modes.iter().enumerate() {
+            let shape: Vec<Complex64> = shape.iter().map(|v| Complex64::from(*v)).collect();
+            let width = (zeta * machine.hz(k)).max(0.3);
+            let peak = found.spectrum.peaks.iter().find(|p| (p.frequency - machine.hz(k)).abs() < width);
+            let like = peak.map_or(0.0, |p| mac(&p.shape, &shape));
+            println!("peak of mode {k}: {:?}, MAC {like:.3}", peak.map(|p| p.frequency));
+            assert!(like > 0.9, "mode {k}");
+        }
+    }
+}
+
+/// A pair 1 % apart at 1 % damping whose peaks are one, with different shapes. The separation is half a half-power bandwidth, so
+/// that over 900 s the shapes scatter by some tenths of each other.
+#[test]
+fn close_pair() {
+    for seed in 1..=4 {
+        let machine = Machine::new(&[(40.0, 0.01), (40.4, 0.01), (70.0, 0.005)], 6, 200.0, 900.0);
+        let found = identify_operational(&machine.record(seed), &OperationalSettings::default()).unwrap();
+        check_shapes(&machine, &found, 0.85);
+    }
+}
+
+/// The band: the record is decimated, and only modes inside are returned, with the same values.
+#[test]
+fn modes_of_a_band() {
+    let machine =
+        Machine::new(&[(30.0, 0.01), (180.0, 0.01), (420.0, 0.01), (900.0, 0.008)], 4, 2560.0, 120.0);
+    let settings = OperationalSettings { band: Some([100.0, 500.0]), ..Default::default() };
+    let found = identify_operational(&machine.record(5), &settings).unwrap();
+    assert!((found.sample_rate - 1300.0).abs() < 2.0, "{}", found.sample_rate);
+    let inside = Machine { modes: machine.modes[1..3].to_vec(), ..machine };
+    check(&inside, &found);
+}
+
+/// A record of 40 time constants of the lowest mode says so; a mode that it does determine has no note.
+#[test]
+fn short_record_is_named() {
+    let machine = Machine::new(&[(10.0, 0.005), (45.0, 0.02)], 4, 128.0, 100.0);
+    let found = identify_operational(&machine.record(7), &OperationalSettings::default()).unwrap();
+    print(&found);
+    let low = |w: &&String| w.contains("too short a record") || w.contains("short record: the mode at");
+    let text = found.warnings.iter().find(low).unwrap();
+    assert!(text.contains("at 10.") || text.contains("at 9.9"), "{text}");
+    let high = found.modes.iter().find(|m| (m.frequency_hz() - 45.0).abs() < 1.0).unwrap();
+    assert!(high.notes.is_empty() && found.warnings.len() == 1, "{:?}", found.warnings);
+}

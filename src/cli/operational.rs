@@ -1,0 +1,209 @@
+//! `identify` of a record without a force: modes of a machine in operation.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use rotordyn::error::Error;
+use rotordyn::figures;
+use rotordyn::identify::operational::{
+    OperationalModes, OperationalSettings, OutputRecord, Shaft, identify_operational,
+};
+use rotordyn::io::hdf5::Store;
+use rotordyn::io::measured::run_up::is_rotation_signal;
+use rotordyn::io::{json, measured, operational_modes, results_file};
+use rotordyn::signal::record::{Dof, Kind, MeasuredData, Record};
+use rotordyn::study::signal::SignalChannel;
+use rotordyn::units::SPEED;
+use rotordyn::warning::Code;
+use serde_json::json;
+
+use super::args::IdentifyArgs;
+use super::csv_files::write_csv;
+use super::failure::Failure;
+use super::folder_lock::FolderLock;
+use super::operational_tables::tables;
+use super::signal::input::{File, InputProblems};
+use super::signal::shaft_source::ShaftSource;
+use super::store::FILE;
+use super::terminal::Terminal;
+use super::{Outcome, print_written_files};
+
+/// Whether a file holds responses only: time records in units of motion, none in N or named like a hammer.
+pub fn is_without_force(file: &MeasuredData) -> bool {
+    let mut vibrations =
+        file.records.iter().filter(|r| r.kind == Kind::Time && !is_rotation_signal(r)).peekable();
+    let moves = |r: &Record| {
+        let name = r.name.to_lowercase();
+        let named = ["force", "hammer", "impact", "kraft"].iter().any(|word| name.contains(word));
+        matches!(r.unit.as_str(), "m/s^2" | "m/s" | "m" | "" | "1") && !named
+    };
+    vibrations.peek().is_some() && vibrations.all(moves)
+}
+
+/// Identifies the modes in the responses of one file, and writes and prints them.
+pub fn run(
+    args: &IdentifyArgs,
+    path: &Path,
+    measured: MeasuredData,
+    settings: OperationalSettings,
+    terminal: &Terminal,
+) -> Result<Outcome, Failure> {
+    let start = Instant::now();
+    let stem = super::measured::stem(path);
+    let file = File { path: path.into(), stem: stem.clone(), measured, stored_run: false };
+    let mut findings = InputProblems::default();
+    let shaft = match &args.speed {
+        Some(text) => findings.positive("--speed", text, SPEED).map_or(ShaftSource::Unknown, |speed| {
+            ShaftSource::Steady(speed / std::f64::consts::TAU, "as given".into())
+        }),
+        None => ShaftSource::of(&args.shaft, args.rate.as_deref(), &file, &mut findings),
+    };
+    let orders = orders(args, &shaft, &mut findings);
+    let chosen = channels(args, &file, &mut findings);
+    findings.to_result()?;
+    let Some((mut record, start_time)) = chosen else {
+        return Err(Failure::Input("no channel to identify".into()));
+    };
+    let mut settings = OperationalSettings { orders, ..settings };
+    settings.shaft = shaft_of(&shaft, &mut record, start_time).map_err(Failure::Input)?;
+    let spinner = terminal.spinner("identify");
+    let found = identify_operational(&record, &settings);
+    spinner.finish_and_clear();
+    findings.warnings.iter().for_each(|text| terminal.warn_of(Code::MeasuredData, text.clone()));
+    let found =
+        found.map_err(|error| Failure::Input(format!("{}: {}", path.display(), Error::from(error))))?;
+    let seconds = start.elapsed().as_secs_f64();
+    tables(terminal, &found);
+
+    let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(format!("identify_{stem}")));
+    let title = if file.measured.title.is_empty() { stem } else { file.measured.title.clone() };
+    let _lock = FolderLock::take(&folder, terminal)?;
+    let files = write(args, &found, &file.measured, &title, &folder, terminal)?;
+    print_written_files(terminal, &folder, &files);
+    found.warnings.iter().for_each(|text| terminal.warn_of(Code::Identification, text.clone()));
+    let mut document = json::document(&operational_modes::section(&found).content);
+    document["command"] = json!("identify");
+    document["seconds"] = json!({ "identify": seconds });
+    document["files"] = json!(files);
+    Ok(document.into())
+}
+
+/// Orders of `--orders`, which need a shaft.
+fn orders(args: &IdentifyArgs, shaft: &ShaftSource, findings: &mut InputProblems) -> Vec<f64> {
+    if !args.orders.is_empty() && !shaft.is_known() {
+        findings.problem("--orders needs the shaft: give --speed \"1500 rpm\", --tacho CHANNEL or --track");
+    }
+    let mut list = Vec::new();
+    for word in &args.orders {
+        match word.trim().trim_end_matches(['x', 'X']).parse::<f64>() {
+            Ok(order) if order > 0.0 && order.is_finite() => list.push(order),
+            _ => findings.problem(format!("--orders {word}: expected positive numbers, such as 3.57,5.43")),
+        }
+    }
+    list
+}
+
+/// The vibration channels, recorded together, and the time of the first sample.
+fn channels(args: &IdentifyArgs, file: &File, findings: &mut InputProblems) -> Option<(OutputRecord, f64)> {
+    let tacho = args.shaft.tacho.as_deref();
+    let list: Vec<&Record> =
+        file.time_records().filter(|r| !is_rotation_signal(r) && Some(r.name.as_str()) != tacho).collect();
+    let (mut samples, mut dofs, mut numbered) = (Vec::new(), Vec::new(), Vec::new());
+    let mut rate: Option<(f64, &str)> = None;
+    for (k, record) in list.iter().enumerate() {
+        let own = findings.value_or_problem("", record.sample_rate())?;
+        match rate {
+            Some((first, name))
+                if (own / first - 1.0).abs() > 1e-9 || record.values.len() != list[0].values.len() =>
+            {
+                findings.problem(format!(
+                    "`{}` is not sampled together with `{name}`; leave it out of the file",
+                    record.name
+                ));
+            }
+            Some(_) => {}
+            None => rate = Some((own, &record.name)),
+        }
+        samples.push(findings.value_or_problem("", record.time_samples())?.to_vec());
+        dofs.push(match record.response.node {
+            0 => {
+                numbered.push(format!("{} is {}", k + 1, record.name));
+                Dof::new(k as i64 + 1, record.response.direction)
+            }
+            _ => record.response,
+        });
+    }
+    let units: Vec<&str> = list.iter().map(|r| r.unit.as_str()).collect();
+    if units.iter().any(|unit| *unit != units[0]) {
+        findings.problem(
+            "the channels have different units, so that their shapes cannot be joined; choose those of one unit, or state the \
+             units in a mapping",
+        );
+    }
+    if !numbered.is_empty() {
+        findings.warnings.push(format!(
+            "channels without a point in the file are numbered: {}; give --mapping for shapes at stations",
+            numbered.join(", ")
+        ));
+    }
+    let start = match list.first()?.axis.points {
+        rotordyn::signal::record::Points::Uniform { start, .. } => start,
+        _ => 0.0,
+    };
+    Some((OutputRecord { samples, sample_rate: rate?.0, dofs }, start))
+}
+
+/// Motion of the shaft over the record, which is cut to the samples that it covers.
+fn shaft_of(shaft: &ShaftSource, record: &mut OutputRecord, start: f64) -> Result<Shaft, String> {
+    if let ShaftSource::Steady(speed, _) = shaft {
+        return Ok(Shaft::Steady(*speed));
+    }
+    let channel = SignalChannel {
+        name: record.dofs[0].to_string(),
+        unit: String::new(),
+        sample_rate: record.sample_rate,
+        start,
+        samples: record.samples[0].clone(),
+        orthogonal: None,
+    };
+    let Some(motion) = shaft.motion(&channel)? else { return Ok(Shaft::Unknown) };
+    if motion.angle.is_empty() {
+        return Ok(Shaft::Steady(motion.summary.mean));
+    }
+    let covered = motion.first..motion.first + motion.angle.len();
+    record.samples.iter_mut().for_each(|channel| *channel = channel[covered.clone()].to_vec());
+    Ok(Shaft::Angle(motion.angle))
+}
+
+fn write(
+    args: &IdentifyArgs,
+    found: &OperationalModes,
+    file: &MeasuredData,
+    title: &str,
+    folder: &Path,
+    terminal: &Terminal,
+) -> Result<Vec<PathBuf>, Failure> {
+    let path = folder.join(FILE);
+    let store = Store::replace(&path)?;
+    store.set_attribute("/meta", "program", "rotordyn")?;
+    store.set_attribute("/meta", "version", env!("CARGO_PKG_VERSION"))?;
+    store.set_attribute("/meta", "title", title)?;
+    let section = operational_modes::section(found);
+    results_file::write_section(&store, "", &section)?;
+    store.commit()?;
+    let mut files = vec![path];
+    if !found.modes.is_empty() {
+        let shapes = folder.join("modes.uff");
+        measured::write(&shapes, &operational_modes::mode_shapes(found, &file.geometry))?;
+        files.push(shapes);
+    }
+    if args.csv {
+        files.extend(write_csv(folder, &[section])?);
+    }
+    if !args.no_figures {
+        let spinner = terminal.spinner("figures");
+        files.extend(figures::identification::draw_operational(found, &file.geometry, title, folder)?);
+        spinner.finish_and_clear();
+    }
+    Ok(files)
+}

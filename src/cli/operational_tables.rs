@@ -1,0 +1,79 @@
+//! Tables of `identify` for a machine in operation: modes, harmonics, what was dropped.
+
+use rotordyn::identify::operational::OperationalModes;
+
+use super::terminal::{Terminal, number};
+
+/// Table of modes, harmonics and dropped poles.
+pub fn tables(terminal: &Terminal, found: &OperationalModes) {
+    let rows: Vec<Vec<String>> = found
+        .modes
+        .iter()
+        .enumerate()
+        .map(|(k, m)| {
+            let largest =
+                (0..m.shape.len()).fold(0, |b, k| if m.shape[k].norm() > m.shape[b].norm() { k } else { b });
+            let whirl = match m.whirl {
+                Some(w) if w > 0.1 => format!("forward {w:.2}"),
+                Some(w) if w < -0.1 => format!("backward {:.2}", -w),
+                Some(_) => "straight".into(),
+                None => "-".into(),
+            };
+            vec![
+                (k + 1).to_string(),
+                format!("{:.4}", m.frequency_hz()),
+                number(m.frequency_error, 2),
+                format!("{:.4}", 100.0 * m.damping_ratio()),
+                number(100.0 * m.damping_error, 2),
+                format!("{:.3}", m.collinearity),
+                found.dofs[largest].to_string(),
+                whirl,
+            ]
+        })
+        .collect();
+    let title = format!(
+        "Modes in operation from {} channels without force, {:.3} to {:.3} Hz, {:.1} s, state-space order {}",
+        found.dofs.len(),
+        found.band[0],
+        found.band[1],
+        found.duration,
+        found.orders.last().unwrap_or(&0)
+    );
+    let header = ["", "damped Hz", "+-", "zeta %", "+-", "MPC", "channel", "whirl"];
+    terminal.table(&title, &header, &rows);
+    terminal.print(&format!(
+        "  +- is one standard error from {} blocks of {:.2} s; MPC (modal phase collinearity) is 1 for a real mode.",
+        found.blocks, found.block_length
+    ));
+    for (k, mode) in found.modes.iter().enumerate() {
+        mode.notes.iter().for_each(|note| terminal.print(&format!("  {}: {note}", k + 1)));
+    }
+    harmonics(terminal, found);
+    if !found.dropped.is_empty() {
+        terminal.print("\n  Stable poles that were rejected:");
+        found.dropped.iter().for_each(|reason| terminal.print(&format!("    {reason}")));
+    }
+}
+
+fn harmonics(terminal: &Terminal, found: &OperationalModes) {
+    if found.harmonics.is_empty() {
+        return;
+    }
+    let rows: Vec<Vec<String>> = found
+        .harmonics
+        .iter()
+        .map(|h| {
+            vec![
+                format!("{:.4}", h.frequency),
+                h.order.map_or("-".into(), |order| format!("{order}x")),
+                format!("{:.2}", h.kurtosis),
+                if h.removed { "subtracted" } else { "recognised" }.into(),
+            ]
+        })
+        .collect();
+    let title = match found.shaft_speed {
+        Some(speed) => format!("Harmonics, mean speed {} rpm", number(60.0 * speed, 6)),
+        None => "Harmonics (a sine has an excess kurtosis of -1.5, noise of 0)".into(),
+    };
+    terminal.table(&title, &["Hz", "order", "kurtosis", ""], &rows);
+}
