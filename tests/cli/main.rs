@@ -15,6 +15,7 @@ mod hit_beside_shaft;
 mod identify;
 mod impact_test;
 mod init;
+mod operational;
 mod order_tracks;
 mod pairing;
 mod path_names;

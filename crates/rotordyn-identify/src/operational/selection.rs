@@ -63,8 +63,8 @@ pub(super) fn select(search: &Search) -> Result<Selection, IdentifyError> {
     let mut found: Vec<(usize, &Candidate, f64)> = Vec::new();
     let mut stable = clusters(candidates, orders.len());
     stable.retain(|cluster| cluster.score > MIN_SUPPORT * orders.len() as f64);
-    // Orders with less room than all modes and some noise need give weak modes a bias without a variance.
-    let enough = 3 * stable.len();
+    // Orders without room for all modes (two per mode) give weak ones a bias without a variance.
+    let enough = 2 * stable.len();
     for (k, cluster) in stable.into_iter().enumerate() {
         let mut members: Vec<&Candidate> = cluster.members.iter().map(|&k| &candidates[k]).collect();
         if members.iter().any(|m| orders[m.order] >= enough) {
