@@ -188,10 +188,10 @@ impl StepMatrix {
         let none = DMatrix::zeros(n, loads.ncols());
         let zero = DMatrix::zeros(n, n);
         let free = expansion(
-            &inverse * beside(&[&-damping, &-stiffness, &loads]),
-            Some(&inverse * beside(&[&-&system.gyroscopic, &-&system.circulatory, &none])),
+            &inverse * side_by_side(&[&-damping, &-stiffness, &loads]),
+            Some(&inverse * side_by_side(&[&-&system.gyroscopic, &-&system.circulatory, &none])),
         );
-        let by_acceleration = || &inverse * beside(&[&zero, &-&system.spin_up, &none]);
+        let by_acceleration = || &inverse * side_by_side(&[&zero, &-&system.spin_up, &none]);
         let response = expansion(&inverse * system.interface_map.transpose(), None);
         let mut new = Self {
             step,
@@ -259,7 +259,7 @@ impl StepMatrix {
 }
 
 /// Matrices with the same number of rows beside each other.
-fn beside(blocks: &[&DMatrix<f64>]) -> DMatrix<f64> {
+fn side_by_side(blocks: &[&DMatrix<f64>]) -> DMatrix<f64> {
     let columns: Vec<_> = blocks.iter().flat_map(|block| block.column_iter()).collect();
     DMatrix::from_columns(&columns)
 }
