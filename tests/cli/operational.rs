@@ -18,7 +18,7 @@ const SPEED: f64 = 29.3;
 /// Velocities for 500 s under random forces, with 1x and 2x of the shaft.
 fn record() -> Vec<Record> {
     let count = (500.0 * RATE) as usize;
-    let mut channels = vec![Vec::with_capacity(count); 3];
+    let mut channels = vec![Vec::new(); 3];
     let mut random = noise(5);
     let mut past = [[0.0f64; 2]; 2];
     for k in 0..count {
