@@ -8,10 +8,10 @@ use rotordyn::error::Error;
 use rotordyn::figures;
 use rotordyn::identify::operational::OperationalSettings;
 use rotordyn::identify::{ModalIdentification, Settings, identify, quantity_of};
-use rotordyn::io::hdf5::{Store, open_reader};
+use rotordyn::io::hdf5::open_reader;
 use rotordyn::io::measured::impact_run;
 use rotordyn::io::measured::mapping::{self, Mapping};
-use rotordyn::io::{identified_modes, json, machine_records, measured, results_file};
+use rotordyn::io::{identified_modes, json, machine_records, measured};
 use rotordyn::model::Quantity;
 use rotordyn::signal::impact::{self, Estimator, ImpactTest, ImpactWindows};
 use rotordyn::signal::record::{FrfMatrix, Kind, MeasuredData, Points, Record, RecordError};
@@ -23,12 +23,12 @@ use super::args::{EstimatorName, IdentifyArgs};
 use super::csv_files::write_csv;
 use super::failure::Failure;
 use super::folder_lock::FolderLock;
+use super::identified_file::write_results;
 use super::identify_tables::tables;
 use super::limits::limits;
 use super::machine::ModelSource;
 use super::measured::range;
 use super::operational;
-use super::store::FILE;
 use super::terminal::Terminal;
 use super::{Outcome, print_written_files};
 
@@ -161,14 +161,8 @@ fn write(
     title: &str,
     folder: &Path,
 ) -> Result<Vec<PathBuf>, Failure> {
-    let path = folder.join(FILE);
-    let store = Store::replace(&path)?;
-    store.set_attribute("/meta", "program", "rotordyn")?;
-    store.set_attribute("/meta", "version", env!("CARGO_PKG_VERSION"))?;
-    store.set_attribute("/meta", "title", title)?;
     let section = identified_modes::section(found);
-    results_file::write_section(&store, "", &section)?;
-    store.commit()?;
+    let path = write_results(folder, title, &section)?;
     let shapes = folder.join("modes.uff");
     measured::write(&shapes, &identified_modes::mode_shapes(found, &all.geometry))?;
     let mut files = vec![path, shapes];

@@ -2,6 +2,7 @@
 
 use rotordyn::identify::sdof::{circle_fit, half_power_fit};
 use rotordyn::identify::{ModalIdentification, quantity_of};
+use rotordyn::signal::Complex;
 use rotordyn::signal::record::FrfMatrix;
 
 use super::terminal::{Terminal, number};
@@ -13,15 +14,6 @@ pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix
         .iter()
         .enumerate()
         .map(|(k, m)| {
-            let strongest = |values: &[rotordyn::signal::Complex<f64>]| {
-                (0..values.len()).fold(0, |b, k| if values[k].norm() > values[b].norm() { k } else { b })
-            };
-            let whirl = match m.whirl {
-                Some(w) if w > 0.1 => format!("forward {w:.2}"),
-                Some(w) if w < -0.1 => format!("backward {:.2}", -w),
-                Some(_) => "straight".into(),
-                None => "-".into(),
-            };
             vec![
                 (k + 1).to_string(),
                 format!("{:.4}", m.frequency_hz()),
@@ -31,7 +23,7 @@ pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix
                 format!("{:.3}", m.collinearity),
                 found.responses[strongest(&m.shape)].to_string(),
                 found.references[strongest(&m.participation)].to_string(),
-                whirl,
+                whirl_text(m.whirl),
             ]
         })
         .collect();
@@ -51,11 +43,31 @@ pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix
         100.0 * found.total_error,
         100.0 * worst
     ));
-    if !found.dropped.is_empty() {
-        terminal.print("\n  Stable poles that were rejected:");
-        found.dropped.iter().for_each(|reason| terminal.print(&format!("    {reason}")));
-    }
+    print_rejected(terminal, &found.dropped);
     sdof_table(terminal, found, frfs);
+}
+
+/// Index of the largest entry of a shape.
+pub fn strongest(values: &[Complex<f64>]) -> usize {
+    (0..values.len()).fold(0, |b, k| if values[k].norm() > values[b].norm() { k } else { b })
+}
+
+/// Direction of whirl, and how round the orbit is from 0 to 1.
+pub fn whirl_text(whirl: Option<f64>) -> String {
+    match whirl {
+        Some(w) if w > 0.1 => format!("forward {w:.2}"),
+        Some(w) if w < -0.1 => format!("backward {:.2}", -w),
+        Some(_) => "straight".into(),
+        None => "-".into(),
+    }
+}
+
+/// Stable poles that are no modes, with the reasons.
+pub fn print_rejected(terminal: &Terminal, reasons: &[String]) {
+    if !reasons.is_empty() {
+        terminal.print("\n  Stable poles that were rejected:");
+        reasons.iter().for_each(|reason| terminal.print(&format!("    {reason}")));
+    }
 }
 
 /// SDOF check of each mode: half-power peak fit and circle fit of the FRF with its largest residue.

@@ -25,6 +25,7 @@ mod free_ball_tables;
 mod free_parameters;
 pub(crate) mod hdf5_reader;
 mod help;
+mod identified_file;
 mod identify;
 mod identify_tables;
 mod init;

@@ -8,9 +8,8 @@ use rotordyn::figures;
 use rotordyn::identify::operational::{
     OperationalModes, OperationalSettings, OutputRecord, Shaft, identify_operational,
 };
-use rotordyn::io::hdf5::Store;
 use rotordyn::io::measured::run_up::is_rotation_signal;
-use rotordyn::io::{json, measured, operational_modes, results_file};
+use rotordyn::io::{json, measured, operational_modes};
 use rotordyn::signal::record::{Dof, Kind, MeasuredData, Record};
 use rotordyn::study::signal::SignalChannel;
 use rotordyn::units::SPEED;
@@ -21,10 +20,10 @@ use super::args::IdentifyArgs;
 use super::csv_files::write_csv;
 use super::failure::Failure;
 use super::folder_lock::FolderLock;
+use super::identified_file::write_results;
 use super::operational_tables::tables;
 use super::signal::input::{File, InputProblems};
 use super::signal::shaft_source::ShaftSource;
-use super::store::FILE;
 use super::terminal::Terminal;
 use super::{Outcome, print_written_files};
 
@@ -183,14 +182,8 @@ fn write(
     folder: &Path,
     terminal: &Terminal,
 ) -> Result<Vec<PathBuf>, Failure> {
-    let path = folder.join(FILE);
-    let store = Store::replace(&path)?;
-    store.set_attribute("/meta", "program", "rotordyn")?;
-    store.set_attribute("/meta", "version", env!("CARGO_PKG_VERSION"))?;
-    store.set_attribute("/meta", "title", title)?;
     let section = operational_modes::section(found);
-    results_file::write_section(&store, "", &section)?;
-    store.commit()?;
+    let path = write_results(folder, title, &section)?;
     let mut files = vec![path];
     if !found.modes.is_empty() {
         let shapes = folder.join("modes.uff");

@@ -2,6 +2,7 @@
 
 use rotordyn::identify::operational::OperationalModes;
 
+use super::identify_tables::{print_rejected, strongest, whirl_text};
 use super::terminal::{Terminal, number};
 
 /// Table of modes, harmonics and dropped poles.
@@ -11,14 +12,6 @@ pub fn tables(terminal: &Terminal, found: &OperationalModes) {
         .iter()
         .enumerate()
         .map(|(k, m)| {
-            let largest =
-                (0..m.shape.len()).fold(0, |b, k| if m.shape[k].norm() > m.shape[b].norm() { k } else { b });
-            let whirl = match m.whirl {
-                Some(w) if w > 0.1 => format!("forward {w:.2}"),
-                Some(w) if w < -0.1 => format!("backward {:.2}", -w),
-                Some(_) => "straight".into(),
-                None => "-".into(),
-            };
             vec![
                 (k + 1).to_string(),
                 format!("{:.4}", m.frequency_hz()),
@@ -26,8 +19,8 @@ pub fn tables(terminal: &Terminal, found: &OperationalModes) {
                 format!("{:.4}", 100.0 * m.damping_ratio()),
                 number(100.0 * m.damping_error, 2),
                 format!("{:.3}", m.collinearity),
-                found.dofs[largest].to_string(),
-                whirl,
+                found.dofs[strongest(&m.shape)].to_string(),
+                whirl_text(m.whirl),
             ]
         })
         .collect();
@@ -49,10 +42,7 @@ pub fn tables(terminal: &Terminal, found: &OperationalModes) {
         mode.notes.iter().for_each(|note| terminal.print(&format!("  {}: {note}", k + 1)));
     }
     harmonics(terminal, found);
-    if !found.dropped.is_empty() {
-        terminal.print("\n  Stable poles that were rejected:");
-        found.dropped.iter().for_each(|reason| terminal.print(&format!("    {reason}")));
-    }
+    print_rejected(terminal, &found.dropped);
 }
 
 fn harmonics(terminal: &Terminal, found: &OperationalModes) {

@@ -184,6 +184,7 @@ fn halved_steps() {
     let model = rig(None, &[("bearing.B.radial_clearance", "300 um"), ("speed.to", "6000 rpm")]);
     let study = RunUpStudy { sample_rate: 1000.0, ..study(&model, GENERALISED_ALPHA, 1e-3) };
     let report = stopped_run_equals_whole_run("halved steps", &model, &study);
+    // The run is chaotic: the number depends on rounding, from 14 to over 20 in two forms of the step.
     assert!(report.halvings > 10 && report.steps > report.samples as u64, "{report:?}");
     assert!(matches!(report.end, End::Failed(_)));
 }

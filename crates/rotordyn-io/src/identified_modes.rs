@@ -1,7 +1,7 @@
 //! Identified modes (experimental modal analysis): what is written to files, and shapes for other programs.
 
 use rotordyn_core::document::{Array, Document, Rows, Section, in_hdf5, in_json, named};
-use rotordyn_identify::{ModalIdentification, Mode};
+use rotordyn_identify::{DiagramPole, ModalIdentification, Mode};
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::record::{Analysis, Dof, Geometry, MeasuredData, Shape};
 
@@ -37,7 +37,7 @@ fn document(found: &ModalIdentification) -> Document<'_> {
         .numbers(in_hdf5("frequencies"), "Hz", &found.frequencies)
         .array(in_hdf5("measured"), frfs(&found.measured))
         .array(in_hdf5("synthesised"), frfs(&found.synthesised))
-        .group(in_hdf5("stabilisation"), diagram(found))
+        .group(in_hdf5("stabilisation"), diagram(&found.diagram))
 }
 
 fn mode_rows<'r>(found: &'r ModalIdentification) -> Rows<'r, 'r, Mode> {
@@ -60,13 +60,14 @@ fn mode_rows<'r>(found: &'r ModalIdentification) -> Rows<'r, 'r, Mode> {
         .number("significance", "1", |m| m.significance)
 }
 
-fn diagram(found: &ModalIdentification) -> Document<'_> {
-    let poles: Vec<Complex64> = found.diagram.iter().map(|p| p.value).collect();
-    let orders: Vec<f64> = found.diagram.iter().map(|p| p.order as f64).collect();
+/// Poles of all model orders with their stability.
+pub(crate) fn diagram(poles: &[DiagramPole]) -> Document<'_> {
+    let values: Vec<Complex64> = poles.iter().map(|p| p.value).collect();
+    let orders: Vec<f64> = poles.iter().map(|p| p.order as f64).collect();
     Document::new()
-        .array("pole", Array::complex(&[poles.len()], "1/s", poles))
+        .array("pole", Array::complex(&[poles.len()], "1/s", values))
         .numbers("order", "1", orders)
-        .texts("stability", found.diagram.iter().map(|p| p.stability.label()))
+        .texts("stability", poles.iter().map(|p| p.stability.label()))
 }
 
 /// Complex mode shapes at the points of the side (responses or references) with more DOFs, for universal files.

@@ -5,7 +5,7 @@ use rotordyn_identify::operational::{OperationalMode, OperationalModes};
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::record::{Dof, Geometry, MeasuredData};
 
-use crate::identified_modes::shape_at_points;
+use crate::identified_modes::{diagram, shape_at_points};
 
 /// The modes with their standard errors, the harmonics, what was dropped and why, singular values of the spectral matrix,
 /// and the stabilisation diagram.
@@ -29,7 +29,7 @@ fn document(found: &OperationalModes) -> Document<'_> {
         .group("harmonics", harmonics(found))
         .texts("dropped", &found.dropped)
         .group("spectrum", spectrum(found))
-        .group(in_hdf5("stabilisation"), diagram(found))
+        .group(in_hdf5("stabilisation"), diagram(&found.diagram))
 }
 
 fn mode_rows(found: &OperationalModes) -> Rows<'_, '_, OperationalMode> {
@@ -73,15 +73,6 @@ fn spectrum(found: &OperationalModes) -> Document<'_> {
             in_hdf5("singular_values"),
             Array::real(&[count, lines], "1/Hz", spectrum.values.concat()).over(1, "frequencies"),
         )
-}
-
-fn diagram(found: &OperationalModes) -> Document<'_> {
-    let poles: Vec<Complex64> = found.diagram.iter().map(|p| p.value).collect();
-    let orders: Vec<f64> = found.diagram.iter().map(|p| p.order as f64).collect();
-    Document::new()
-        .array("pole", Array::complex(&[poles.len()], "1/s", poles))
-        .numbers("order", "1", orders)
-        .texts("stability", found.diagram.iter().map(|p| p.stability.label()))
 }
 
 /// Complex mode shapes at the points of the channels, for universal files, `validate` and `update`.
