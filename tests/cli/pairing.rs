@@ -4,10 +4,20 @@ use super::{json_of, output_of, rotordyn};
 
 const MODEL: &str = "models/two_disc_pedestals.toml";
 
+/// The diagrams over speed are computed too, and not looked at here.
+const FEW_SPEEDS: [&str; 6] = [
+    "--set",
+    "study.campbell.speeds=[\"0 rpm\", \"3000 rpm\"]",
+    "--set",
+    "study.unbalance.speeds=[\"1000 rpm\", \"3000 rpm\"]",
+    "--set",
+    "study.frf.frequencies=[\"10 Hz\", \"100 Hz\"]",
+];
+
 fn compared(min_mac: Option<&str>, folder: &std::path::Path) -> serde_json::Value {
     let mut command = rotordyn();
     command.args(["compare", MODEL, "--variants", "base,stiff_pedestals", "--no-figures", "--modes", "16"]);
-    command.args(["--speed", "0, 1200 rpm", "--out"]).arg(folder);
+    command.args(FEW_SPEEDS).args(["--speed", "0, 1200 rpm", "--out"]).arg(folder);
     if let Some(limit) = min_mac {
         command.args(["--min-mac", limit]);
     }
@@ -47,16 +57,8 @@ fn compare_pairs_no_modes_below_the_limit() {
         assert_eq!(2 * paired + alone, 64);
     }
     let mut command = rotordyn();
-    command.args([
-        "compare",
-        MODEL,
-        "--variants",
-        "base,stiff_pedestals",
-        "--no-figures",
-        "--modes",
-        "16",
-        "--out",
-    ]);
+    command.args(["compare", MODEL, "--variants", "base,stiff_pedestals", "--no-figures", "--modes", "16"]);
+    command.args(FEW_SPEEDS).arg("--out");
     let text = output_of(command.arg(folder.path()));
     assert!(text.contains("stiff_pedestals: no pair, best MAC 0."), "{text}");
     command.args(["--min-mac", "1.5"]).assert().code(2);

@@ -9,8 +9,9 @@ use crate::error::Error;
 use rmp_serde::decode::Error as DecodeError;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use serde_path_to_error::Track;
 use std::fs::File;
-use std::io::{BufReader, BufWriter};
+use std::io::{BufReader, Read, Write};
 use std::path::Path;
 
 /// Name and version of the format.
@@ -30,12 +31,10 @@ struct Header {
 pub fn save<T: Serialize>(path: impl AsRef<Path>, result: &T) -> Result<(), Error> {
     let path = path.as_ref();
     let header = Header { format: FORMAT.into(), version: env!("CARGO_PKG_VERSION").into() };
-    let write = |out: &mut BufWriter<File>| -> Result<(), rmp_serde::encode::Error> {
-        rmp_serde::encode::write_named(out, &header)?;
-        rmp_serde::encode::write_named(out, result)
-    };
-    atomic_file::write_with(path, |out| write(out).map_err(std::io::Error::other))
-        .map_err(Error::of_file("write", path))
+    atomic_file::write_with(path, |out| {
+        encode(out, &header).and_then(|()| encode(out, result)).map_err(std::io::Error::other)
+    })
+    .map_err(Error::of_file("write", path))
 }
 
 /// A value as MessagePack, without the header of a file.
@@ -43,17 +42,18 @@ pub fn save<T: Serialize>(path: impl AsRef<Path>, result: &T) -> Result<(), Erro
 /// # Errors
 /// A value that has no such form.
 pub fn to_bytes<T: Serialize>(value: &T) -> Result<Vec<u8>, String> {
-    rmp_serde::to_vec_named(value).map_err(|error| error.to_string())
+    let mut bytes = Vec::new();
+    encode(&mut bytes, value).map_err(|error| error.to_string())?;
+    Ok(bytes)
 }
 
 /// The value of [`to_bytes`].
 ///
 /// # Errors
 /// Bytes of another value: the place in it and the reason.
-pub fn from_bytes<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
-    let mut from = rmp_serde::Deserializer::from_read_ref(bytes);
-    serde_path_to_error::deserialize(&mut from)
-        .map_err(|error| format!("{}: {}", error.path(), error.inner()))
+pub fn from_bytes<T: DeserializeOwned>(mut bytes: &[u8]) -> Result<T, String> {
+    let bytes: &mut dyn Read = &mut bytes;
+    decode(&mut rmp_serde::Deserializer::new(bytes)).map_err(|(place, why)| format!("{place}: {why}"))
 }
 
 /// Loads a result saved by [`save`] from the same type.
@@ -62,8 +62,9 @@ pub fn from_bytes<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
 /// The file cannot be read, or holds another format or another result; names the place in the result.
 pub fn load<T: DeserializeOwned>(path: impl AsRef<Path>) -> Result<T, Error> {
     let path = path.as_ref();
-    let file = File::open(path).map_err(Error::of_file("open", path))?;
-    let mut reader = rmp_serde::Deserializer::new(BufReader::new(file));
+    let mut file = BufReader::new(File::open(path).map_err(Error::of_file("open", path))?);
+    let file: &mut dyn Read = &mut file;
+    let mut reader = rmp_serde::Deserializer::new(file);
     match Header::deserialize(&mut reader) {
         Ok(header) if header.format == FORMAT => {}
         Ok(header) => {
@@ -77,6 +78,22 @@ pub fn load<T: DeserializeOwned>(path: impl AsRef<Path>) -> Result<T, Error> {
         }
         Err(_) => return Err(Error::of_file("read", path)("it contains no results saved by rotordyn")),
     }
-    serde_path_to_error::deserialize(&mut reader)
-        .map_err(|e| Error::of_file("read", path)(format!("at {}: {}", e.path(), e.inner())))
+    decode(&mut reader).map_err(|(place, why)| Error::of_file("read", path)(format!("at {place}: {why}")))
+}
+
+type Reader<'a> = rmp_serde::Deserializer<rmp_serde::decode::ReadReader<&'a mut dyn Read>>;
+
+// Both go through trait objects, so that the many types of a result are compiled for one serializer and one
+// deserializer: compiled for each reader and for the tracking of places, they took four minutes.
+
+fn encode(out: &mut dyn Write, value: &dyn erased_serde::Serialize) -> Result<(), rmp_serde::encode::Error> {
+    rmp_serde::encode::write_named(&mut { out }, value)
+}
+
+/// The next value, or the place in it and the reason why there is none.
+fn decode<T: DeserializeOwned>(reader: &mut Reader<'_>) -> Result<T, (String, String)> {
+    let mut track = Track::new();
+    let tracked = serde_path_to_error::Deserializer::new(reader, &mut track);
+    let value = erased_serde::deserialize(&mut <dyn erased_serde::Deserializer>::erase(tracked));
+    value.map_err(|why| (track.path().to_string(), why.to_string()))
 }

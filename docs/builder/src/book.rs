@@ -90,7 +90,7 @@ fn build_once(arguments: &Arguments) -> Result<String, String> {
         changed.extend(report.changed);
     }
     if !changed.is_empty() && !arguments.write {
-        let hint = "`cargo run -p book -- --write` puts the printed output into docs/src";
+        let hint = "`cargo run --bin book -- --write` puts the printed output into docs/src";
         return Err(format!("{}\n{hint}", changed.join("\n")));
     }
     write_prepared("SUMMARY.md", &with_tables(&summary, &generated)?, &places)?;

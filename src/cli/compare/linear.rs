@@ -3,12 +3,14 @@
 use rotordyn::document::{Document, Section};
 use rotordyn::figures::{self, LinearComparison};
 use rotordyn::io::json;
+use rotordyn::model::load::Loaded;
 use rotordyn::results::{
     CampbellResult, FrfComparison, Results, UnbalanceComparison, UnbalanceResult, VariantComparison,
 };
 use rotordyn::study::{self, FrfCase, Machine, compare_frfs, compare_unbalance, compare_variants};
 use rotordyn::warning::Code;
 use serde_json::json;
+use std::path::Path;
 
 use super::super::args::CompareArgs;
 use super::super::csv_files::write_csv;
@@ -33,9 +35,14 @@ struct Computed {
 }
 
 pub fn run(args: &CompareArgs, cases: &[Case], terminal: &Terminal) -> Result<Outcome, Failure> {
+    let loaded = cases.iter().map(|case| load(args, case)).collect::<Result<Vec<_>, _>>()?;
+    // Before the studies: a file that cannot be read is told at once.
+    let models: Vec<_> = loaded.iter().map(|case| &case.model).collect();
+    let measured = args.measured.as_ref().map(|path| frf_places::read(path, args, &models, terminal));
+    let (measured, measured_speed) = measured.transpose()?.unwrap_or_default();
     let mut computed = Vec::new();
-    for case in cases {
-        computed.push(compute(args, case, terminal)?);
+    for (case, loaded) in cases.iter().zip(loaded) {
+        computed.push(compute(case, loaded, terminal)?);
     }
     let first = &computed[0];
     let modal: Vec<study::Variant> = computed
@@ -43,26 +50,9 @@ pub fn run(args: &CompareArgs, cases: &[Case], terminal: &Terminal) -> Result<Ou
         .map(|v| study::Variant { name: &v.name, machine: &v.machine, modal: &v.results.modal })
         .collect();
     let modes = (computed.len() > 1).then(|| compare_variants(&modal, args.min_mac));
-    let measured = match &args.measured {
-        Some(path) => {
-            let models: Vec<_> = computed.iter().map(|case| &case.machine.model).collect();
-            let (frfs, speed) = frf_places::read(path, args, &models, terminal)?;
-            let own = first.results.frf.as_ref().map_or(0.0, |found| found.speed);
-            if let Some(speed) = speed.filter(|speed| (speed - own).abs() > SAME_SPEED) {
-                let (file, own) = (path.display(), rpm(own));
-                terminal.warn_of(
-                    Code::MeasuredData,
-                    format!(
-                        "{file}: measured at {:.0} rpm, computed at {own:.0} rpm: --set study.frf.speed=\"{:.0} rpm\"",
-                        rpm(speed),
-                        rpm(speed)
-                    ),
-                );
-            }
-            frfs
-        }
-        None => Vec::new(),
-    };
+    if let (Some(path), Some(speed)) = (&args.measured, measured_speed) {
+        warn_of_another_speed(path, speed, first, terminal);
+    }
     let with_frfs: Vec<FrfCase> = computed
         .iter()
         .filter_map(|v| Some(FrfCase { name: &v.name, machine: &v.machine, found: v.results.frf.as_ref()? }))
@@ -113,8 +103,22 @@ pub fn run(args: &CompareArgs, cases: &[Case], terminal: &Terminal) -> Result<Ou
     Ok(document.into())
 }
 
-/// The studies of one case.
-fn compute(args: &CompareArgs, case: &Case, terminal: &Terminal) -> Result<Computed, Failure> {
+/// Warns of FRFs measured at another speed \[rad/s\] than that of the study.
+fn warn_of_another_speed(path: &Path, measured: f64, computed: &Computed, terminal: &Terminal) {
+    let own = computed.results.frf.as_ref().map_or(0.0, |found| found.speed);
+    if (measured - own).abs() > SAME_SPEED {
+        let (file, measured, own) = (path.display(), rpm(measured), rpm(own));
+        terminal.warn_of(
+            Code::MeasuredData,
+            format!(
+                "{file}: measured at {measured:.0} rpm, computed at {own:.0} rpm: --set study.frf.speed=\"{measured:.0} rpm\""
+            ),
+        );
+    }
+}
+
+/// The model of one case with the studies that are compared.
+fn load(args: &CompareArgs, case: &Case) -> Result<Loaded, Failure> {
     let base = case.origin.load_with(&case.settings)?;
     let mut own = case.settings.clone();
     let mut add = |more: Settings| {
@@ -125,7 +129,11 @@ fn compute(args: &CompareArgs, case: &Case, terminal: &Terminal) -> Result<Compu
     if args.measured.is_some() {
         add(settings::frf(&base.model, None, None, None));
     }
-    let mut loaded = case.origin.load_with(&own)?;
+    case.origin.load_with(&own)
+}
+
+/// The studies of one case.
+fn compute(case: &Case, mut loaded: Loaded, terminal: &Terminal) -> Result<Computed, Failure> {
     let folder = case.origin.results_folder(None, &loaded.model.name);
     ehl_films::prepare_machine_films(&mut loaded.model, &folder, terminal)?;
     let machine = Machine::new(loaded.model.clone())?;
