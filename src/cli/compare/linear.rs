@@ -3,7 +3,7 @@
 use rotordyn::document::{Document, Section};
 use rotordyn::figures::{self, LinearComparison};
 use rotordyn::io::json;
-use rotordyn::model::load::Loaded;
+use rotordyn::model::Loaded;
 use rotordyn::results::{
     CampbellResult, FrfComparison, Results, UnbalanceComparison, UnbalanceResult, VariantComparison,
 };
