@@ -41,7 +41,7 @@ pub fn support_forces(model: &Model, sections: &[SectionLoad]) -> Vec<SupportFor
     let weight = |mass: f64| [mass * x, mass * y, mass * z, 0.0, 0.0, 0.0];
     model.rotating_inertias().for_each(|disc| add(&Anchor::node(disc.node), weight(disc.mass)));
     model.masses.iter().for_each(|mass| add(&mass.anchor, weight(mass.mass)));
-    model.loads.iter().filter(|load| load.history.is_empty()).for_each(|load| add(&load.at, load.force));
+    model.loads.iter().filter(|load| load.factor.is_constant()).for_each(|load| add(&load.at, load.force));
     let mut names: Vec<Vec<String>> = vec![Vec::new(); nodes];
     let mut name = |at: &Anchor, text: String| {
         at.node.and_then(|node| names.get_mut(node)).into_iter().for_each(|names| names.push(text.clone()));
