@@ -55,7 +55,7 @@ fn harmonics(terminal: &Terminal, found: &OperationalModes) {
         .map(|h| {
             vec![
                 format!("{:.4}", h.frequency),
-                h.order.map_or("-".into(), |order| format!("{order}x")),
+                h.order.map_or("-".into(), |order| format!("{}x", number(order, 6))),
                 format!("{:.2}", h.kurtosis),
                 if h.removed { "subtracted" } else { "recognised" }.into(),
             ]

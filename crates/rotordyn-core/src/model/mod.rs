@@ -146,6 +146,10 @@ impl LoadFactor {
         }
     }
 
+    pub fn is_random(&self) -> bool {
+        matches!(self, Self::Random(_))
+    }
+
     pub fn is_constant(&self) -> bool {
         matches!(self, Self::Constant)
     }

@@ -61,7 +61,11 @@ pub fn identify_operational(
     let shaft = orders::shaft_angle(&data, &settings.shaft, settings.speed_tolerance);
     let shaft_speed = shaft.as_ref().map(|(_, speed)| *speed);
     if let Some((theta, speed)) = shaft {
-        harmonics = orders::subtract(&mut data, &theta, speed, &settings.orders);
+        let other = match settings.shaft {
+            Shaft::Steady(_) => orders::refined_orders(&data, speed, &settings.orders),
+            _ => settings.orders.clone(),
+        };
+        harmonics = orders::subtract(&mut data, &theta, speed, &other);
     }
     harmonics.extend(lines::sines(&data));
     harmonics.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));

@@ -6,6 +6,7 @@ use rustfft::FftPlanner;
 
 use super::settings::{OperationalSettings, OutputRecord};
 use crate::IdentifyError;
+use crate::data::derivatives;
 
 /// Responses in the band.
 pub(super) struct Prepared {
@@ -16,6 +17,8 @@ pub(super) struct Prepared {
     pub band: [f64; 2],
     /// RMS of every channel in the band.
     pub scale: Vec<f64>,
+    /// Time derivatives of every channel beyond the channel with the fewest.
+    derivatives: Vec<i32>,
     /// Samples of the record per sample here.
     pub step: f64,
 }
@@ -78,7 +81,16 @@ impl Prepared {
             scale.push(rms);
         }
         let step = padded as f64 / length as f64;
-        Ok(Self { samples: out, rate: record.sample_rate / step, band, scale, step })
+        let derivatives = record.quantities.iter().map(|quantity| derivatives(*quantity));
+        let fewest = derivatives.clone().min().unwrap_or(0);
+        let derivatives = derivatives.map(|d| d - fewest).collect();
+        Ok(Self { samples: out, rate: record.sample_rate / step, band, scale, derivatives, step })
+    }
+
+    /// Factors that turn a shape of the samples into one of a single quantity in SI units: scale_c λ^(−d_c) for the d_c-th
+    /// derivative of a motion e^{λt}.
+    pub fn to_one_quantity(&self, pole: Complex64) -> Vec<Complex64> {
+        self.scale.iter().zip(&self.derivatives).map(|(s, d)| pole.powi(-d) * *s).collect()
     }
 
     pub fn channels(&self) -> usize {
@@ -103,8 +115,12 @@ fn ramp(x: f64) -> f64 {
 fn check(record: &OutputRecord, settings: &OperationalSettings) -> Result<(), IdentifyError> {
     let fault = |what: &'static str, reason: String| Err(IdentifyError::Setting { what, reason });
     let channels = record.samples.len();
-    if channels == 0 || record.dofs.len() != channels {
-        return fault("channels", format!("{} records for {} points", channels, record.dofs.len()));
+    if channels == 0 || record.dofs.len() != channels || record.quantities.len() != channels {
+        let (points, quantities) = (record.dofs.len(), record.quantities.len());
+        return fault(
+            "channels",
+            format!("{channels} records for {points} points and {quantities} quantities"),
+        );
     }
     let samples = record.samples[0].len();
     if let Some(other) = record.samples.iter().find(|c| c.len() != samples) {

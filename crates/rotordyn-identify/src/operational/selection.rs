@@ -116,9 +116,10 @@ pub(super) fn select(search: &Search) -> Result<Selection, IdentifyError> {
 fn mode(search: &Search, chosen: &Chosen, spread: &super::uncertainty::ModeVariance) -> OperationalMode {
     let data = search.data;
     let pole = chosen.candidate.pole.value;
-    let scaled: Vec<_> = chosen.candidate.shape.iter().zip(&data.scale).map(|(v, s)| v * *s).collect();
+    let factors = data.to_one_quantity(pole);
+    let scaled: Vec<_> = chosen.candidate.shape.iter().zip(&factors).map(|(v, s)| v * *s).collect();
     let largest = scaled.iter().map(|v| v.norm()).fold(f64::MIN_POSITIVE, f64::max);
-    let shape_error = spread.shape.iter().zip(&data.scale).map(|(v, s)| v.sqrt() * s / largest).collect();
+    let shape_error = spread.shape.iter().zip(&factors).map(|(v, s)| v.sqrt() * s.norm() / largest).collect();
     let (frequency_error, damping_error) = standard_errors(pole, spread.pole);
     let energy: f64 = search.correlations.mean.iter().map(|r| r.norm_squared()).sum();
     let lags = search.correlations.mean.len();

@@ -105,3 +105,18 @@ fn short_record_is_named() {
     let high = found.modes.iter().find(|m| (m.frequency_hz() - 45.0).abs() < 1.0).unwrap();
     assert!(high.notes.is_empty() && found.warnings.len() == 1, "{:?}", found.warnings);
 }
+
+/// Displacements at two points and velocities at four: the shapes are those of one quantity, with their phase.
+#[test]
+fn shapes_of_displacements_and_velocities() {
+    let modes = [(12.0, 0.01), (31.0, 0.006), (47.0, 0.02)];
+    let machine = Machine { displacements: 2, ..Machine::new(&modes, 6, 160.0, 600.0) };
+    let found = identify_operational(&machine.record(7), &OperationalSettings::default()).unwrap();
+    check(&machine, &found);
+    for (k, (_, zeta, shape)) in machine.modes.iter().enumerate() {
+        let shape: Vec<Complex64> = shape.iter().map(|v| Complex64::from(*v)).collect();
+        let width = (zeta * machine.hz(k)).max(0.3);
+        let peak = found.spectrum.peaks.iter().find(|p| (p.frequency - machine.hz(k)).abs() < width).unwrap();
+        assert!(mac(&peak.shape, &shape) > 0.9, "peak of mode {k}");
+    }
+}

@@ -94,7 +94,7 @@ fn magnitude_and_direction(force: &[f64; 6]) -> (f64, i8) {
 }
 
 /// The model with which the run was computed.
-fn stored_model(store: &dyn Reader) -> Result<Option<Model>, Error> {
+pub(super) fn stored_model(store: &dyn Reader) -> Result<Option<Model>, Error> {
     let text = |name: &str| -> Result<Option<String>, Error> {
         Ok(match store.attribute("/meta", name)? {
             Some(Attribute::Text(text)) => Some(text),
