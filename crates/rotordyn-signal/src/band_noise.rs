@@ -69,7 +69,13 @@ impl BandNoise {
         let steps = 16;
         let square = |k: i64| low_pass((k as f64 + 0.5) / steps as f64).powi(2);
         let energy = (-HALF * steps..HALF * steps).map(square).sum::<f64>() / steps as f64;
-        Ok(Self { centre: PI * (low + high), rate: RATE * half_width, seed, gain: (2.0 / energy).sqrt(), recent: Recent::default() })
+        Ok(Self {
+            centre: PI * (low + high),
+            rate: RATE * half_width,
+            seed,
+            gain: (2.0 / energy).sqrt(),
+            recent: Recent::default(),
+        })
     }
 
     /// Value at a time \[s\].
@@ -82,8 +88,11 @@ impl BandNoise {
         let place = time * self.rate;
         let first = place.floor() as i64 - HALF + 1;
         let numbers = self.numbers(first, recent.as_ref());
-        let sum: Complex<f64> =
-            weights(place - place.floor()).iter().zip(&numbers).map(|(weight, number)| number * *weight).sum();
+        let sum: Complex<f64> = weights(place - place.floor())
+            .iter()
+            .zip(&numbers)
+            .map(|(weight, number)| number * *weight)
+            .sum();
         let (sin, cos) = (self.centre * time).sin_cos();
         let value = self.gain * (sum.re * cos + sum.im * sin);
         *recent = Some(Instant { time, value, first, numbers });

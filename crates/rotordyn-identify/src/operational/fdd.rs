@@ -111,23 +111,30 @@ fn first_vector(spectra: &[Vec<Vec<Complex64>>], k: usize) -> Vec<Complex64> {
     v
 }
 
-/// Lines of peaks: highest within ±1.5 % and ±3 lines, and high over the median of the lines within ±30 %.
+/// Height of a line over the median of the lines within ±30 % \[dB\].
+pub(super) fn height_db(frequencies: &[f64], values: &[f64], k: usize) -> f64 {
+    let mut around = values[near(frequencies, k, 0.3, 10)].to_vec();
+    let middle = around.len() / 2;
+    let median = *around.select_nth_unstable_by(middle, f64::total_cmp).1;
+    10.0 * (values[k] / median.max(f64::MIN_POSITIVE)).log10()
+}
+
+/// Lines within a relative range around a line, and at least some.
+fn near(frequencies: &[f64], k: usize, ratio: f64, lines: usize) -> std::ops::Range<usize> {
+    let from = frequencies.partition_point(|f| *f < frequencies[k] * (1.0 - ratio));
+    let to = frequencies.partition_point(|f| *f <= frequencies[k] * (1.0 + ratio));
+    from.min(k.saturating_sub(lines))..to.max((k + lines + 1).min(frequencies.len()))
+}
+
+/// Lines of peaks: highest within ±1.5 % and ±3 lines, and high over the lines around.
 fn peaks(frequencies: &[f64], values: &[f64]) -> Vec<(usize, f64)> {
     let n = values.len();
     let mut out = Vec::new();
     for k in 0..n {
-        let near = |ratio: f64, lines: usize| {
-            let from = frequencies.partition_point(|f| *f < frequencies[k] * (1.0 - ratio));
-            let to = frequencies.partition_point(|f| *f <= frequencies[k] * (1.0 + ratio));
-            from.min(k.saturating_sub(lines))..to.max((k + lines + 1).min(n))
-        };
-        if values[near(0.015, 3)].iter().any(|v| *v > values[k]) {
+        if values[near(frequencies, k, 0.015, 3)].iter().any(|v| *v > values[k]) {
             continue;
         }
-        let mut around = values[near(0.3, 10)].to_vec();
-        let middle = around.len() / 2;
-        let median = *around.select_nth_unstable_by(middle, f64::total_cmp).1;
-        let height = 10.0 * (values[k] / median.max(f64::MIN_POSITIVE)).log10();
+        let height = height_db(frequencies, values, k);
         if height > PEAK_DB && k > 0 && k + 1 < n {
             out.push((k, height));
         }

@@ -55,18 +55,16 @@ pub fn identify_operational(
     record: &OutputRecord,
     settings: &OperationalSettings,
 ) -> Result<OperationalModes, IdentifyError> {
-    let mut data = Prepared::new(record, settings)?;
+    let whole = Prepared::new(record, settings)?;
+    let first = without_harmonics(whole.clone(), settings);
+    // The harmonics are fitted again without a transient at the start, whose remains would look like some.
+    let start = first.data.transient();
+    let left_out = start as f64 / first.data.rate;
+    let Steady { data, shaft_speed, mut harmonics } = match start {
+        0 => first,
+        start => without_harmonics(whole.without_start(start), settings),
+    };
     let impulsive = impulsive_warning(&data, record);
-    let mut harmonics = Vec::new();
-    let shaft = orders::shaft_angle(&data, &settings.shaft, settings.speed_tolerance);
-    let shaft_speed = shaft.as_ref().map(|(_, speed)| *speed);
-    if let Some((theta, speed)) = shaft {
-        let other = match settings.shaft {
-            Shaft::Steady(_) => orders::refined_orders(&data, speed, &settings.orders),
-            _ => settings.orders.clone(),
-        };
-        harmonics = orders::subtract(&mut data, &theta, speed, &other);
-    }
     harmonics.extend(lines::sines(&data));
     harmonics.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
 
@@ -105,6 +103,7 @@ pub fn identify_operational(
     let mut found = select(&search)?;
     let channels_of_spectrum = independent_channels(&data, fdd::MAX_CHANNELS);
     let spectrum = fdd::decomposition(&data, &channels_of_spectrum, &harmonics)?;
+    note_possible_pairs(&spectrum, &mut found.modes);
     found.warnings.extend(unexplained_peaks(&spectrum, &found.modes));
     found.warnings.extend(impulsive);
     if found.modes.is_empty() && found.warnings.is_empty() {
@@ -122,6 +121,7 @@ pub fn identify_operational(
         band: data.band,
         sample_rate: data.rate,
         duration: data.duration(),
+        left_out,
         blocks,
         block_length: (data.len() - lags) as f64 / blocks as f64 / data.rate,
         longest_lag: lags as f64 / data.rate,
@@ -133,6 +133,38 @@ pub fn identify_operational(
         dropped: found.dropped,
         warnings: found.warnings,
     })
+}
+
+/// A record without harmonics.
+struct Steady {
+    data: Prepared,
+    /// \[rev/s\].
+    shaft_speed: Option<f64>,
+    harmonics: Vec<Harmonic>,
+}
+
+/// Rounds of subtraction: a strong line hides weak ones near it.
+const ROUNDS: usize = 3;
+
+/// Subtracts the orders of the shaft, if its motion is known, and sines of constant frequency.
+fn without_harmonics(mut data: Prepared, settings: &OperationalSettings) -> Steady {
+    let (mut shaft_speed, mut harmonics) = (None, Vec::new());
+    if let Some((theta, speed)) = orders::shaft_angle(&data, &settings.shaft, settings.speed_tolerance) {
+        let other = match settings.shaft {
+            Shaft::Steady(_) => orders::refined_orders(&data, speed, &settings.orders),
+            _ => settings.orders.clone(),
+        };
+        harmonics = orders::subtract(&mut data, &theta, speed, &other);
+        shaft_speed = Some(speed);
+    }
+    for _ in 0..ROUNDS {
+        let lines = lines::constant_sines(&data);
+        if lines.is_empty() {
+            break;
+        }
+        harmonics.extend(orders::subtract_sines(&mut data, lines));
+    }
+    Steady { data, shaft_speed, harmonics }
 }
 
 /// Excess kurtosis from which a response is one of hits; 0 under random forces, whatever the modes.
@@ -153,6 +185,38 @@ fn impulsive_warning(data: &Prepared, record: &OutputRecord) -> Option<String> {
              random forces; for an impact test add the channel of the force"
         )
     })
+}
+
+/// Second singular value over the first from which a peak may be two modes, and its height over the lines around \[dB\].
+const PAIR_RATIO: f64 = 0.1;
+const PAIR_DB: f64 = 6.0;
+
+/// Notes modes in whose peak a second motion is nearly as large as the first, with no second mode there.
+fn note_possible_pairs(spectrum: &SpectralDecomposition, modes: &mut [OperationalMode]) {
+    let [first, second, ..] = &spectrum.values[..] else { return };
+    let half_width = |m: &OperationalMode| m.damping_ratio() * m.frequency_hz();
+    for k in 0..modes.len() {
+        let (hz, width) = (modes[k].frequency_hz(), half_width(&modes[k]));
+        let close = |(j, m): (usize, &OperationalMode)| {
+            j != k && (m.frequency_hz() - hz).abs() < 2.0 * (width + half_width(m))
+        };
+        if modes.iter().enumerate().any(close) {
+            continue;
+        }
+        let from = spectrum.frequencies.partition_point(|f| *f < hz - width);
+        let to = spectrum.frequencies.partition_point(|f| *f <= hz + width).max(from + 1);
+        let lines = from..to.min(second.len());
+        let Some(top) = lines.max_by(|a, b| second[*a].total_cmp(&second[*b])) else { continue };
+        if second[top] > PAIR_RATIO * first[top]
+            && fdd::height_db(&spectrum.frequencies, second, top) > PAIR_DB
+        {
+            modes[k].notes.push(format!(
+                "may be two close modes: a second motion is {:.0} dB below the first at {:.3} Hz",
+                10.0 * (first[top] / second[top]).log10(),
+                spectrum.frequencies[top]
+            ));
+        }
+    }
 }
 
 /// Least height of a peak that a mode must explain \[dB\].

@@ -33,7 +33,7 @@ pub(super) fn shaft_angle(data: &Prepared, shaft: &Shaft, tolerance: f64) -> Opt
         }
         Shaft::Angle(angle) => {
             let at = |k: usize| {
-                let place = k as f64 * data.step;
+                let place = (data.first + k) as f64 * data.step;
                 let i = (place as usize).min(angle.len() - 2);
                 angle[i] + (place - i as f64) * (angle[i + 1] - angle[i])
             };
@@ -133,15 +133,7 @@ pub(super) fn subtract(data: &mut Prepared, theta: &[f64], speed: f64, other: &[
     if orders.is_empty() {
         return Vec::new();
     }
-    for own in windows.fits(data, theta, &orders, limit) {
-        for k in own.from..own.to {
-            let x = (k as f64 - own.middle as f64) / half as f64;
-            let weight = 0.5 + 0.5 * (PI * x).cos();
-            for (c, samples) in data.samples.iter_mut().enumerate() {
-                samples[k] -= weight * own.tracked[c][k - own.from];
-            }
-        }
-    }
+    windows.subtract(data, theta, &orders, limit);
     orders
         .iter()
         .filter(|order| *order * slowest < data.band[1] && *order * fastest > data.band[0])
@@ -153,6 +145,21 @@ pub(super) fn subtract(data: &mut Prepared, theta: &[f64], speed: f64, other: &[
             removed: true,
         })
         .collect()
+}
+
+/// Most sines that are subtracted at a time.
+const MAX_SINES: usize = 100;
+
+/// Subtracts sines of constant frequency.
+pub(super) fn subtract_sines(data: &mut Prepared, mut lines: Vec<Harmonic>) -> Vec<Harmonic> {
+    lines.sort_by(|a, b| a.kurtosis.total_cmp(&b.kurtosis));
+    lines.truncate(MAX_SINES);
+    // As orders of one turn a second.
+    let theta: Vec<f64> = (0..data.len()).map(|k| TAU * k as f64 / data.rate).collect();
+    let Some(windows) = Windows::new(data, &theta, 1.0) else { return Vec::new() };
+    let frequencies: Vec<f64> = lines.iter().map(|line| line.frequency).collect();
+    windows.subtract(data, &theta, &frequencies, 0.49 * data.rate);
+    lines.into_iter().map(|line| Harmonic { removed: true, ..line }).collect()
 }
 
 /// Power of an order over that of the noise in the same bandwidth, in the mean over windows and in one window, from which it is a
@@ -217,6 +224,19 @@ impl Windows {
         let length = if steady { (n as f64 / STEADY_WINDOWS).max(revolutions) } else { 4.0 * revolutions };
         let half = ((0.5 * length) as usize).clamp(8, n / 2);
         (fastest > 0.0).then_some(Windows { slowest, fastest, half, samples: n })
+    }
+
+    /// Subtracts the fits of the orders, weighted by the windows, which add up to 1.
+    fn subtract(&self, data: &mut Prepared, theta: &[f64], orders: &[f64], limit: f64) {
+        for own in self.fits(data, theta, orders, limit) {
+            for k in own.from..own.to {
+                let x = (k as f64 - own.middle as f64) / self.half as f64;
+                let weight = 0.5 + 0.5 * (PI * x).cos();
+                for (c, samples) in data.samples.iter_mut().enumerate() {
+                    samples[k] -= weight * own.tracked[c][k - own.from];
+                }
+            }
+        }
     }
 
     /// Least-squares fits of the orders in all windows with enough samples for them.

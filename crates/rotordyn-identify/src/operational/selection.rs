@@ -162,6 +162,10 @@ fn judge(search: &Search, all: Vec<OperationalMode>) -> Selection {
             ));
             continue;
         }
+        if let Some(end) = search.data.band.into_iter().find(|end| (end - hz).abs() < zeta * hz) {
+            out.dropped.push(format!("{name}: its peak reaches beyond the band, which ends at {end:.3} Hz"));
+            continue;
+        }
         if let Some(line) = lines(search).find(|h| (h.frequency - hz).abs() < 0.5 * zeta * hz) {
             let what = if line.removed { "removed before" } else { "in the record" };
             mode.notes.push(format!("a harmonic at {:.3} Hz, {what}, lies in its peak", line.frequency));

@@ -2,7 +2,7 @@
 
 use super::impact_run::stored_model;
 use crate::error::Error;
-use crate::hdf5::{Reader, read_recording};
+use crate::hdf5::{Reader, Recording, read_recording};
 use crate::machine_records::run_records;
 use crate::results_file::history_of;
 use rotordyn_core::model::Model;
@@ -13,7 +13,7 @@ use rotordyn_signal::record::MeasuredData;
 pub struct OperatingRun {
     /// Probes, shaft angle and speed, at the points of the model.
     pub records: MeasuredData,
-    /// Ball-pass orders of the bearings up to twice the order of the inner race.
+    /// Ball-pass orders of the bearings with their side bands.
     pub orders: Vec<f64>,
     /// Whether a random force acts.
     pub is_random: bool,
@@ -42,21 +42,35 @@ pub fn operating_run(store: &dyn Reader) -> Result<Option<OperatingRun>, Error> 
     }
     Ok(Some(OperatingRun {
         records,
-        orders: ball_pass_orders(&model),
+        orders: ball_pass_orders(&model, &recording),
         is_random: model.loads.iter().any(|load| load.factor.is_random()),
         has_frfs: store.contains("/frf/response")?,
     }))
 }
 
-/// Multiples of the ball-pass orders of all bearings, without those of equal bearings.
-fn ball_pass_orders(model: &Model) -> Vec<f64> {
+/// Highest multiple of the ball-pass order, and most side bands of the shaft speed on each side.
+const MULTIPLES: u32 = 4;
+const SIDE_BANDS: i32 = 3;
+
+/// Multiples of the ball-pass order of every bearing in the run, with the side bands of a load that turns with the shaft; with
+/// the cage speed of the run, which depends on the contact angles.
+fn ball_pass_orders(model: &Model, recording: &Recording) -> Vec<f64> {
+    let turned = |values: &[f64]| Some(values.last()? - values.first()?);
+    let shaft = turned(&recording.angle).filter(|angle| *angle != 0.0);
     let mut out: Vec<f64> = Vec::new();
-    for orders in model.bearings.iter().filter_map(|site| site.bearing.characteristic_orders()) {
-        for base in [orders.bpfo, orders.bpfi] {
-            out.extend((1..).map(|k| f64::from(k) * base).take_while(|order| *order <= 2.0 * orders.bpfi));
+    for site in &model.bearings {
+        let Some(orders) = site.bearing.characteristic_orders() else { continue };
+        let name = format!("{}_cage_angle", site.name);
+        let channel = recording.channels.iter().find(|(channel, _)| channel.name == name);
+        let cage = channel.and_then(|(_, values)| Some(turned(values)? / shaft?));
+        let ball_pass =
+            cage.filter(|ratio| *ratio > 0.0).map_or(orders.bpfo, |ratio| orders.bpfo / orders.ftf * ratio);
+        for k in 1..=MULTIPLES {
+            out.extend((-SIDE_BANDS..=SIDE_BANDS).map(|j| f64::from(k) * ball_pass + f64::from(j)));
         }
     }
+    out.retain(|order| *order > 0.0);
     out.sort_by(f64::total_cmp);
-    out.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    out.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
     out
 }
