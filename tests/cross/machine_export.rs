@@ -28,6 +28,7 @@ fn rig() -> Model {
         torque: 0.0,
         proportional_damping: [0.0; 2],
         internal_viscous: 0.0,
+        layers: Vec::new(),
     };
     let disc = |name: &str, node, mass, polar_inertia, diametral_inertia, size: [f64; 2]| Disc {
         name: name.into(),
