@@ -42,7 +42,7 @@ fn rig() -> Model {
     let housing = |name: &str, z| RigidBody {
         name: name.into(),
         position: [0.0, 0.0, z],
-        mass: 1.5,
+        mass: [1.5; 3],
         inertia: [[3e-3, 0.0, 0.0], [0.0, 3e-3, 0.0], [0.0, 0.0, 3e-3]],
     };
     let site = |name: &str, node, body| BearingSite {
