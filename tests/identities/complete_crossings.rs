@@ -114,7 +114,7 @@ fn machine(r: &mut Random) -> (Model, f64) {
             let name = format!("housing {k}");
             let position = [0.0, 0.0, model.node_z[node]];
             let inertia = [[j, 0.0, 0.0], [0.0, j, 0.0], [0.0, 0.0, j]];
-            model.bodies.push(RigidBody { name: name.clone(), position, mass, inertia });
+            model.bodies.push(RigidBody { name: name.clone(), position, mass: [mass; 3], inertia });
             housing = Anchor::node(body);
             let [stiffness, damping] = plane_matrices(r);
             let locked = [false, false, true, true, true, true];

@@ -104,7 +104,7 @@ proptest! {
         let total: f64 = model.shaft.iter().map(|e| e.mass()).sum::<f64>()
             + model.discs.iter().map(|d| d.mass).sum::<f64>()
             + model.bodies.iter().map(|b| b.mass[0]).sum::<f64>()
-            + model.masses.iter().map(|m| m.mass).sum::<f64>();
+            + model.masses.iter().map(|m| m.mass[0]).sum::<f64>();
         for motion in 0..6 {
             let mut q = vec![0.0; 6 * nodes];
             for node in 0..nodes {

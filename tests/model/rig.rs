@@ -174,7 +174,7 @@ fn joint_variants_connect_the_shaft_to_ground() {
 fn block_variant() {
     let (model, json) = (rig(Some("block")), reference());
     let block = &model.bodies[0];
-    same(block.mass, get(&json, "/block_optional/mass"));
+    same(block.mass[1], get(&json, "/block_optional/mass"));
     same(-block.position[1], get(&json, "/block_optional/shaft_axis_above_cg"));
     same(block.position[2], get(&json, "/block_optional/cg_z"));
     let node = Some(model.node_z.len());
