@@ -3,6 +3,9 @@
 use super::writer::{Place, Writer, tag};
 use crate::ross::rotor::{AXES, SavedBearing, SavedMass};
 
+/// Stiffness from which a spring stands for a rigid support \[N/m\]: ten thousand times that of the stiffest bearings.
+const RIGID: f64 = 1e14;
+
 impl Writer<'_> {
     /// Point masses: bodies on nodes of their own, else masses on the shaft or on those bodies.
     pub fn supports(&mut self) {
@@ -87,11 +90,48 @@ impl Writer<'_> {
             self.leave_out(&bearing.name, "all its coefficients are zero");
             return;
         }
+        if let Some(rest) = self.rigid(bearing, [a, b]) {
+            if rest.stiffness.iter().chain(&rest.damping).flatten().any(|v| *v != 0.0) {
+                self.bearing(&rest);
+            }
+            return;
+        }
         match (a, b) {
             (Place::Station(node), Place::Ground | Place::Body(_)) => self.on_shaft(bearing, node, b),
             (Place::Body(_), Place::Station(node)) => self.on_shaft(bearing, node, a),
             _ => self.link(bearing, [a, b]),
         }
+    }
+
+    /// Springs of a bearing to ground that stand for a rigid support become a joint, which holds exactly: next to them the
+    /// stiffness of the shaft is lost in round-off. Returns the rest of the bearing, without masses.
+    fn rigid(&mut self, bearing: &SavedBearing, [at, other]: [Place; 2]) -> Option<SavedBearing> {
+        // the diagonal in the order of `AXES`
+        let diagonal = [(0, "x"), (3, "y"), (4, "z")];
+        let is_rigid = |k: usize| bearing.stiffness[k].iter().all(|v| *v >= RIGID);
+        let held: Vec<(usize, &str)> = diagonal.into_iter().filter(|(k, _)| is_rigid(*k)).collect();
+        let alone = [1, 2]
+            .iter()
+            .all(|k| bearing.stiffness[*k].iter().chain(&bearing.damping[*k]).all(|v| *v == 0.0));
+        if held.is_empty() || !alone || other != Place::Ground {
+            return None;
+        }
+        let name = format!("{}_rigid", self.bearings.of(tag(&bearing.name)));
+        let at = self.place_name(at);
+        self.text.table(&format!("[joint.{name}]"));
+        self.text.comment(&format!("{}: {RIGID:e} N/m or more, held exactly", bearing.name));
+        self.text.raw("between", &format!("[\"{at}\", \"ground\"]"));
+        let names: Vec<String> = held.iter().map(|(_, axis)| format!("\"{axis}\"")).collect();
+        self.text.raw("constrain", &format!("[{}]", names.join(", ")));
+        self.count("BearingElement of a rigid support", "[joint.x]");
+        let mut rest = bearing.clone();
+        for (k, _) in held {
+            rest.stiffness[k].fill(0.0);
+            rest.damping[k].fill(0.0);
+        }
+        rest.mass.iter_mut().for_each(|values| values.fill(0.0));
+        rest.more.clear();
+        Some(rest)
     }
 
     /// A bearing between shaft and ground or a support.
