@@ -7,6 +7,7 @@
 //! | DiskElement | `[disc.x]` by mass and inertia |
 //! | BearingElement, SealElement and their kinds, on the shaft | `[bearing.x]`, `model = "linear"`; their masses `[sensor.x]` |
 //! | the same between two nodes without the shaft, or within it | `[bushing.x]` |
+//! | springs of 1e14 N/m and more to ground, for a rigid support | `[joint.x]` |
 //! | PointMass on a node of its own | `[body.x]` whose rotations a `[joint.x]` fixes |
 //! | PointMass on a shaft node | `[sensor.x]` |
 //! | CouplingElement | a section with `gap`, a `[bushing.x]` without lever arms, a `[disc.x]` at each end |
