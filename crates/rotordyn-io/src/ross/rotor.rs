@@ -122,6 +122,8 @@ const BEARING_KEYS: [&str; 12] = [
     "seal_leakage",
     "kwargs",
 ];
+/// Elements of a file; more are no rotor.
+const MAX_TABLES: usize = 5000;
 /// Points of a table over speed and whirl frequency; more are no measurement.
 const MAX_POINTS: usize = 20_000;
 /// Classes whose `frequency` is that of the whirl also in ROSS 2.
@@ -129,6 +131,11 @@ const WHIRL_CLASSES: [&str; 2] = ["MagneticBearingElement", "SqueezeFilmDamper"]
 
 impl SavedRotor {
     pub(super) fn read(tree: &Tree) -> Result<Self, ModelErrors> {
+        if tree.root.len() > MAX_TABLES {
+            let message = format!("the file has {} tables", tree.root.len());
+            tree.problem(["", ""], Kind::OutOfRange, message, &format!("at most {MAX_TABLES} elements"), "");
+            return Err(tree.errors());
+        }
         let mut rotor = Self { version: version(tree), ..Self::default() };
         // by class and number: "Bearing 2" before "Bearing 10"
         let mut names: Vec<&String> = tree.root.keys().collect();
