@@ -97,8 +97,7 @@ keys! {
         speed: Quantities = quantities(not_negative(SPEED), "one or more, increasing",
             "Speeds of a table; every component then has one value or one per speed.").default("0 rpm");
         whirl_frequency: Quantities = quantities(not_negative(SPEED), "two or more, increasing",
-            "Frequencies of motion of a table; every component then has one value, or for each speed one per frequency. FRFs \
-             take them, all else the frequency of rotation.").optional().example("\"0, 50, 100 Hz\"");
+            "Frequencies of motion of a table, one value per frequency for each speed; only FRFs take others than the speed.").optional().example("\"0, 50, 100 Hz\"");
         beyond_table: Words<BeyondTable> = words(BEYOND,
             "At speeds beyond a table of two or more: its last value, an error, or on along the last slope.").default("hold")
             .with("speed = \"0, 3000 rpm\"");

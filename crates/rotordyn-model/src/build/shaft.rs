@@ -50,8 +50,7 @@ static SECTION_TABLE: Table = Table {
 };
 
 static LAYER_TABLE: Table = Table {
-    meaning: "A sleeve or the like that shares the shaft's nodes: its stiffness and inertia are added to those of the sections, \
-              each with its own shear. The shaft has nodes at its ends.",
+    meaning: "A sleeve on the shaft's nodes, whose stiffness and inertia are added to those of the sections; nodes are at its ends.",
     groups: &[
         Group::always(LayerKeys::LIST),
         Group::always(SectionKeys::LIST),
