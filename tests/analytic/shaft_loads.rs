@@ -126,7 +126,7 @@ fn on_springs(stiffness: [f64; 2], damping: f64) -> Machine {
         name: name.into(),
         node,
         housing: Anchor::GROUND,
-        bearing: Bearing::Linear(LinearBearing { table: vec![row.clone()], beyond: Default::default() }),
+        bearing: Bearing::Linear(LinearBearing { table: vec![row.clone()], ..Default::default() }),
     };
     model.bearings = vec![site(0, "A"), site(10, "B")];
     model.unbalances = vec![Unbalance { name: "u".into(), node: 5, magnitude: 2e-4, phase: 0.4 }];

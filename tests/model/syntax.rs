@@ -154,7 +154,7 @@ mass = "20 g"
     assert_eq!(housing.node, Some(7));
     assert!((housing.offset[1] - 0.05).abs() < 1e-15 && (housing.offset[2] + 0.01).abs() < 1e-15);
     assert_eq!((model.bushings[0].stiffness[3][3], model.bushings[0].stiffness[4][4]), (1e3, 2e3));
-    assert_eq!((model.masses[0].anchor.node, model.masses[0].mass), (Some(7), 0.02));
+    assert_eq!((model.masses[0].anchor.node, model.masses[0].mass), (Some(7), [0.02; 3]));
 }
 
 #[test]

@@ -56,6 +56,12 @@ pub const CASES: &[Case] = &[
         ["plain.h5", "spoiled.h5"]
             .map(|file| program::codes(folder.path(), &[&["signal", file][..], &OUT].concat(), 0))
     }),
+    (Code::NotImported, || {
+        let text = include_str!("../data/ross/rotors/example_rotor.toml").to_string();
+        let spoiled = text.replacen("gyroscopic = true", "gyroscopic = false", 1);
+        let folder = program::folder(&[("plain.toml", text), ("spoiled.toml", spoiled)]);
+        ["plain.toml", "spoiled.toml"].map(|file| program::codes(folder.path(), &["import", file], 0))
+    }),
     (Code::SignalAnalysis, || {
         let sample = |k: u32| format!("{:.5},{:.6}\n", f64::from(k) / 5000.0, (0.3 * f64::from(k)).sin());
         let record = format!("time [s],acc [m/s^2]\n{}", (0..2000).map(sample).collect::<String>());

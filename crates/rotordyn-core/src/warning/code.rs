@@ -80,6 +80,9 @@ codes! {
         "Part of a file was not read: links that lead nowhere or to other files, types that are neither numbers nor texts, \
          damaged or oversized data. All the rest was read.",
         "see the text of the warning; where the part is needed, write the file again with plain arrays";
+    NotImported, "not-imported", Caution,
+        "Part of a file of another program has no counterpart in the model file written from it, or means something else there.",
+        "see the text of the warning; add what matters by hand";
     MeasuredSpeed, "measured-speed", Caution,
         "A measured speed curve is changed or extended to be followed.",
         "look at the curve of the record";
