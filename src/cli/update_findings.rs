@@ -1,7 +1,7 @@
 //! What `update` says of its fit: probability of chi^2, culprits of a misfit, groups of parameters, profiles.
 
 use rotordyn::update::culprits::{self, Culprit, CulpritSearch};
-use rotordyn::update::goodness::{FitVerdict, MIN_PROBABILITY};
+use rotordyn::update::goodness::{FitQuality, MIN_PROBABILITY};
 use rotordyn::update::groups::{self, Combination};
 use rotordyn::update::parameter::FreeParameter;
 use rotordyn::update::profile::{Profile, profile};
@@ -65,17 +65,17 @@ pub fn print_fit(terminal: &Terminal, found: &Update) {
         found.iterations.len() - 1,
         if found.converged { "" } else { ", not converged" }
     ));
-    match goodness.verdict() {
-        FitVerdict::DeviationsTooLarge => terminal.print_wrapped(
+    match goodness.quality() {
+        FitQuality::DeviationsTooLarge => terminal.print_wrapped(
             "The differences left are smaller than the standard deviations of the data (1 % or less of all fits are that \
              close): the stated accuracies are cautious, and so are the standard errors. State better ones with \
              --frequency-accuracy and --frf-accuracy if they are known.",
         ),
-        FitVerdict::NotTested => terminal.print_wrapped(
+        FitQuality::NotTested => terminal.print_wrapped(
             "There are no more data than parameters: that the model fits says nothing. Fit more modes or points, or free \
              fewer parameters.",
         ),
-        FitVerdict::Explained | FitVerdict::NotExplained => {}
+        FitQuality::Explained | FitQuality::NotExplained => {}
     }
 }
 

@@ -62,12 +62,12 @@ const TWO_DISCS: Machine = Machine {
         [disc.left]
         station = "left"
         mass = "8 kg"
-        polar_inertia = "0.04 kg m^2"
+        polar_inertia = "0.02 kg m^2"
         diametral_inertia = "0.02 kg m^2"
         [disc.right]
         station = "right"
         mass = "12 kg"
-        polar_inertia = "0.09 kg m^2"
+        polar_inertia = "0.05 kg m^2"
         diametral_inertia = "0.05 kg m^2"
         [bearing.A]
         station = "A"
@@ -351,11 +351,12 @@ struct Rates {
 
 #[test]
 fn perturbed_two_disc_rotors() {
-    let rates = TWO_DISCS.study(0..24);
-    assert!(rates.within >= 0.95 && rates.identifiable >= 8, "{rates:?}");
+    // A third each with the right, too few and the wrong free parameters.
+    let rates = TWO_DISCS.study(0..6);
+    assert!(rates.within >= 0.95 && rates.identifiable >= 4, "{rates:?}");
     // Wilson & Hilferty's point is off by some thousandths of its value.
     assert!(rates.named >= 0.99, "{rates:?}");
-    assert!(rates.culprit >= 0.9 && rates.searched >= 8, "{rates:?}");
+    assert!(rates.culprit >= 0.9 && rates.searched >= 3, "{rates:?}");
 }
 
 /// Rates over the machine that is cheap to compute; five minutes.

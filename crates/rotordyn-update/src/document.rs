@@ -2,7 +2,7 @@
 
 use super::correlation::Correlation;
 use super::culprits::{Culprit, CulpritSearch};
-use super::goodness::FitVerdict;
+use super::goodness::FitQuality;
 use super::groups::{Combination, Group};
 use super::parameter::FreeParameter;
 use super::profile::Profile;
@@ -40,9 +40,9 @@ impl Update {
             .number(of_parameters("chi_squared"), "1", self.goodness.chi_squared)
             .number(of_parameters("degrees_of_freedom"), "1", self.goodness.degrees_of_freedom)
             .number(of_parameters("chi_squared_probability"), "1", self.goodness.probability())
-            .text(of_parameters("fit"), self.goodness.verdict().label())
+            .text(of_parameters("fit"), self.goodness.quality().label())
             .number(of_parameters("standard_error_scale"), "1", found.inflation)
-            .flag(of_parameters("standard_errors_valid"), self.goodness.verdict() != FitVerdict::NotExplained)
+            .flag(of_parameters("standard_errors_valid"), self.goodness.quality() != FitQuality::NotExplained)
             .flag(of_parameters("converged"), self.converged)
             .integer(of_parameters("iterations"), self.iterations.len() - 1)
             .optional(in_json("frf_db_before"), "dB", frf_difference_db.map(|[before, _]| before))

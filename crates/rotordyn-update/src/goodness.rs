@@ -12,7 +12,7 @@ pub const MIN_PROBABILITY: f64 = 0.01;
 
 /// What the probability of χ² says of a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FitVerdict {
+pub enum FitQuality {
     /// The differences of model and data are those of the stated standard deviations.
     Explained,
     /// They are larger: the model has an error that the free parameters cannot remove.
@@ -23,14 +23,14 @@ pub enum FitVerdict {
     NotTested,
 }
 
-impl FitVerdict {
+impl FitQuality {
     /// Label.
     pub fn label(self) -> &'static str {
         match self {
-            FitVerdict::Explained => "explained",
-            FitVerdict::NotExplained => "not explained",
-            FitVerdict::DeviationsTooLarge => "explained, deviations too large",
-            FitVerdict::NotTested => "not tested",
+            FitQuality::Explained => "explained",
+            FitQuality::NotExplained => "not explained",
+            FitQuality::DeviationsTooLarge => "explained, deviations too large",
+            FitQuality::NotTested => "not tested",
         }
     }
 }
@@ -68,21 +68,21 @@ impl GoodnessOfFit {
     }
 
     /// Whether the fitted model explains the data.
-    pub fn verdict(&self) -> FitVerdict {
+    pub fn quality(&self) -> FitQuality {
         if self.probability() < MIN_PROBABILITY {
-            FitVerdict::NotExplained
+            FitQuality::NotExplained
         } else if self.degrees_of_freedom < 0.5 {
-            FitVerdict::NotTested
+            FitQuality::NotTested
         } else if lower_probability(self.chi_squared, self.degrees_of_freedom) < MIN_PROBABILITY {
-            FitVerdict::DeviationsTooLarge
+            FitQuality::DeviationsTooLarge
         } else {
-            FitVerdict::Explained
+            FitQuality::Explained
         }
     }
 
     /// Whether the model does not explain the data.
     pub fn is_rejected(&self) -> bool {
-        self.verdict() == FitVerdict::NotExplained
+        self.quality() == FitQuality::NotExplained
     }
 }
 
@@ -91,22 +91,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn verdicts_by_the_probability() {
+    fn quality_by_the_probability() {
         let of =
-            |chi_squared, degrees_of_freedom| GoodnessOfFit { chi_squared, degrees_of_freedom }.verdict();
+            |chi_squared, degrees_of_freedom| GoodnessOfFit { chi_squared, degrees_of_freedom }.quality();
         // 1 % points of 14 degrees of freedom: 29.14 above, 4.66 below.
-        for (chi_squared, verdict) in [
-            (35.9, FitVerdict::NotExplained),
-            (29.2, FitVerdict::NotExplained),
-            (29.1, FitVerdict::Explained),
-            (14.0, FitVerdict::Explained),
-            (4.7, FitVerdict::Explained),
-            (4.6, FitVerdict::DeviationsTooLarge),
-            (0.0, FitVerdict::DeviationsTooLarge),
+        for (chi_squared, quality) in [
+            (35.9, FitQuality::NotExplained),
+            (29.2, FitQuality::NotExplained),
+            (29.1, FitQuality::Explained),
+            (14.0, FitQuality::Explained),
+            (4.7, FitQuality::Explained),
+            (4.6, FitQuality::DeviationsTooLarge),
+            (0.0, FitQuality::DeviationsTooLarge),
         ] {
-            assert_eq!(of(chi_squared, 14.0), verdict, "{chi_squared}");
+            assert_eq!(of(chi_squared, 14.0), quality, "{chi_squared}");
         }
-        assert_eq!(of(0.0, 0.1), FitVerdict::NotTested);
-        assert_eq!(of(500.0, 0.1), FitVerdict::NotExplained);
+        assert_eq!(of(0.0, 0.1), FitQuality::NotTested);
+        assert_eq!(of(500.0, 0.1), FitQuality::NotExplained);
     }
 }
