@@ -80,7 +80,11 @@ pub fn print_fit(terminal: &Terminal, found: &Update) {
 }
 
 fn per_cent(probability: f64) -> String {
-    if probability > 0.999 { "above 99.9".into() } else { number(100.0 * probability, 2) }
+    match probability {
+        p if p > 0.999 => "above 99.9".into(),
+        p if p < 1e-6 => "below 1e-4".into(),
+        p => number(100.0 * p, 2),
+    }
 }
 
 /// Groups, culprits and profiles.
