@@ -209,7 +209,7 @@ fn profiles_of_a_plausible_fit() {
     assert!(stderr.contains("--profile takes the names given to --free"), "{stderr}");
 }
 
-/// Of two springs in series at one place only a combination is determined.
+/// A group states the combination that the data determine and the one they do not.
 #[test]
 fn inseparable_parameters_are_a_group() {
     let folder = tempfile::tempdir().unwrap();

@@ -42,7 +42,7 @@ const RIG: Machine = Machine {
     ],
 };
 
-/// Two discs on four springs: an update takes a hundredth of that of the rig.
+/// Two discs on four springs, cheaper than the rig.
 const TWO_DISCS: Machine = Machine {
     text: r#"
         [model]
@@ -359,16 +359,19 @@ fn perturbed_two_disc_rotors() {
     assert!(rates.culprit >= 0.9 && rates.searched >= 3, "{rates:?}");
 }
 
-/// Rates over the machine that is cheap to compute; five minutes.
+/// Rates over the machine that is cheap to compute: some seconds of processor time a case.
 #[test]
 #[ignore = "a study of minutes: cargo test --test update -- --ignored --nocapture"]
-fn hundreds_of_two_disc_rotors() {
-    TWO_DISCS.study(1000..1300);
+fn a_hundred_perturbed_two_disc_rotors() {
+    let rates = TWO_DISCS.study(1000..1100);
+    // The nominal 95.4 % less two standard deviations of a count of some hundred.
+    assert!(rates.within >= 0.91 && rates.named >= 0.99 && rates.culprit >= 0.9, "{rates:?}");
 }
 
-/// Rates over the rig of the models; a quarter of an hour.
+/// Rates over the rig of the models, which takes several times as long.
 #[test]
 #[ignore = "a study of minutes: cargo test --test update -- --ignored --nocapture"]
 fn a_hundred_perturbed_rigs() {
-    RIG.study(2000..2100);
+    let rates = RIG.study(2000..2100);
+    assert!(rates.within >= 0.91 && rates.named >= 0.99 && rates.culprit >= 0.9, "{rates:?}");
 }

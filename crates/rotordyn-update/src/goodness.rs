@@ -47,6 +47,9 @@ pub struct GoodnessOfFit {
 impl GoodnessOfFit {
     /// Of a solution in which only the parameters `fitted` were free.
     pub fn new(at: &Evaluation, prior: &Prior, fitted: &[usize]) -> Self {
+        if fitted.is_empty() {
+            return Self { chi_squared: at.residual.norm_squared(), degrees_of_freedom: at.data };
+        }
         let pick = |values: &[f64]| fitted.iter().map(|&j| values[j]).collect::<Vec<f64>>();
         let jacobian =
             DMatrix::from_fn(at.jacobian.nrows(), fitted.len(), |i, k| at.jacobian[(i, fitted[k])]);
@@ -108,5 +111,21 @@ mod tests {
         }
         assert_eq!(of(0.0, 0.1), FitQuality::NotTested);
         assert_eq!(of(500.0, 0.1), FitQuality::NotExplained);
+    }
+
+    #[test]
+    fn parameters_that_are_not_fitted_take_no_degrees_of_freedom() {
+        let at = Evaluation {
+            residual: nalgebra::DVector::from_vec(vec![1.0, 2.0, 2.0]),
+            jacobian: DMatrix::from_row_slice(3, 2, &[1e4, 0.0, 0.0, 1e4, 0.0, 0.0]),
+            data: 3.0,
+        };
+        let prior =
+            Prior { mean: vec![0.0; 2], deviation: vec![1.0; 2], lower: vec![-9.0; 2], upper: vec![9.0; 2] };
+        for (fitted, degrees) in [(&[][..], 3.0), (&[1][..], 2.0), (&[0, 1][..], 1.0)] {
+            let found = GoodnessOfFit::new(&at, &prior, fitted);
+            assert_eq!(found.chi_squared, 9.0);
+            assert!((found.degrees_of_freedom - degrees).abs() < 1e-6, "{found:?}");
+        }
     }
 }
