@@ -65,6 +65,7 @@ pub(crate) mod terminal;
 mod trend;
 mod unbalance_tables;
 mod update;
+mod update_findings;
 mod validate;
 
 use outcome::{Outcome, finish, print_model_warnings, print_written_files, report};

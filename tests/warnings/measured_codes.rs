@@ -33,6 +33,17 @@ pub const CASES: &[Case] = &[
             program::codes(folder.path(), &[&arguments[..], &OUT].concat(), 0)
         })
     }),
+    (Code::LackOfFit, || {
+        let folder = two_discs();
+        store_modes(folder.path(), "own", "bearing.A.k_xx=5e6 N/m");
+        store_modes(folder.path(), "soft", "material.steel.young=190 GPa");
+        // The stiffness that differs, and one that cannot stand for a softer shaft.
+        ["own", "soft"].map(|measured| {
+            let file = format!("{measured}/results.h5");
+            let arguments = ["update", "machine.toml", "--measured", &file, "--free", "bearing.A.k_xx"];
+            program::codes(folder.path(), &[&arguments[..], &OUT].concat(), 0)
+        })
+    }),
     (Code::Identification, || {
         let folder = program::folder(&[]);
         let frfs = [1, 2].map(frf);

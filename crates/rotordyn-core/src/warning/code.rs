@@ -225,8 +225,12 @@ codes! {
         "Identified poles or shapes rest on hits that are left out or truncated, or on FRFs that are noisy, few or poorly fitted.",
         "see the text of the warning";
     ModelUpdate, "model-update", Caution,
-        "An update has correlated, bounded or poorly determined parameters, or does not explain the measurement.",
+        "An update has correlated or bounded parameters, did not converge, or its data and priors are inconsistent.",
         "free fewer parameters, or measure more";
+    LackOfFit, "lack-of-fit", Serious,
+        "The updated model does not explain the measurement: differences as large as those left have a probability below 1 % \
+         (chi^2 with its degrees of freedom). The fitted values stand for an error of the model elsewhere.",
+        "free a parameter that is named to explain the misfit, and check mode pairs, mapping, signs and units";
     ShaftSpeedNotFound, "shaft-speed-not-found", Caution,
         "A record has no family of shaft harmonics near the stated speed; bearing lines are multiples of the speed.",
         "check speed and sampling rate, or widen --speed-range";
