@@ -84,11 +84,11 @@ fn lowest(assembly: &Assembly, model: &Model, speed: f64, count: usize) -> Vec<C
 /// Pairs of each reference value with the nearest of ours, each of ours used once.
 fn pairs(ours: &[Complex64], theirs: &[Complex64]) -> Vec<[Complex64; 2]> {
     let mut left = ours.to_vec();
-    let mut nearest = |t: &Complex64| {
+    let nearest = |t: &Complex64| {
         let best = (0..left.len()).min_by(|&a, &b| (left[a] - t).norm().total_cmp(&(left[b] - t).norm()));
         [left.swap_remove(best.expect("as many values as the reference")), *t]
     };
-    theirs.iter().map(|t| nearest(t)).collect()
+    theirs.iter().map(nearest).collect()
 }
 
 fn log_decrement(value: Complex64) -> f64 {

@@ -219,7 +219,10 @@ mod tests {
         ];
         assert_eq!(listed, expected);
         for value in &found {
-            assert_eq!(resolve_parameter_path(FILE.as_bytes(), &soft, &value.path).unwrap(), [value.clone()]);
+            assert_eq!(
+                resolve_parameter_path(FILE.as_bytes(), &soft, &value.path).unwrap(),
+                std::slice::from_ref(value)
+            );
         }
     }
 

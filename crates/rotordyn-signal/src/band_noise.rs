@@ -33,7 +33,7 @@ pub struct BandNoise {
 
 /// The numbers g_k of the last instant, most of which the next one needs too, and its value. No part of the function's identity.
 #[derive(Debug, Default)]
-struct Recent(Mutex<Option<Instant>>);
+struct Recent(Mutex<Option<Box<Instant>>>);
 
 #[derive(Debug)]
 struct Instant {
@@ -87,7 +87,7 @@ impl BandNoise {
         }
         let place = time * self.rate;
         let first = place.floor() as i64 - HALF + 1;
-        let numbers = self.numbers(first, recent.as_ref());
+        let numbers = self.numbers(first, recent.as_deref());
         let sum: Complex<f64> = weights(place - place.floor())
             .iter()
             .zip(&numbers)
@@ -95,7 +95,11 @@ impl BandNoise {
             .sum();
         let (sin, cos) = (self.centre * time).sin_cos();
         let value = self.gain * (sum.re * cos + sum.im * sin);
-        *recent = Some(Instant { time, value, first, numbers });
+        let now = Instant { time, value, first, numbers };
+        match &mut *recent {
+            Some(known) => **known = now,
+            None => *recent = Some(Box::new(now)),
+        }
         value
     }
 

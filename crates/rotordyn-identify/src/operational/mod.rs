@@ -8,6 +8,7 @@
 //! | `correlation` | correlations by blocks, block Hankel matrix |
 //! | `subspace`, `uncertainty` | covariance-driven stochastic subspace identification (SSI-cov); standard errors |
 //! | `selection` | modes by stabilisation over the orders; harmonics, spurious poles, doubts |
+//! | `parts` | parts of the band identified by themselves where peaks are left over |
 //! | `fdd` | frequency-domain decomposition |
 //!
 //! The unknown forces are taken for broadband and random. A peak of their spectrum is indistinguishable from a mode, and
@@ -17,6 +18,7 @@ mod correlation;
 mod fdd;
 mod lines;
 mod orders;
+mod parts;
 mod prepare;
 mod result;
 mod selection;
@@ -52,6 +54,32 @@ const FEWEST_BLOCKS: usize = 10;
 /// # Errors
 /// Values that are not finite, dead channels, too few samples, wrong settings, no mode.
 pub fn identify_operational(
+    record: &OutputRecord,
+    settings: &OperationalSettings,
+) -> Result<OperationalModes, IdentifyError> {
+    let mut found = identify_band(record, settings)?;
+    parts::resolve(record, settings, &mut found);
+    found.warnings.extend(unexplained_peaks(&found).into_iter().map(|peak| {
+        format!(
+            "the spectrum has a peak of {:.0} dB at {:.3} Hz that no mode explains: too short a record for it, a peak of the \
+             forces, or an unsteady harmonic",
+            peak.height_db, peak.frequency
+        )
+    }));
+    if found.modes.is_empty() && found.warnings.is_empty() {
+        let poles = found.diagram.len();
+        return Err(IdentifyError::NoMode {
+            from: found.band[0],
+            to: found.band[1],
+            poles,
+            orders: found.orders.len(),
+        });
+    }
+    Ok(found)
+}
+
+/// Modes of one band.
+fn identify_band(
     record: &OutputRecord,
     settings: &OperationalSettings,
 ) -> Result<OperationalModes, IdentifyError> {
@@ -104,16 +132,7 @@ pub fn identify_operational(
     let channels_of_spectrum = independent_channels(&data, fdd::MAX_CHANNELS);
     let spectrum = fdd::decomposition(&data, &channels_of_spectrum, &harmonics)?;
     note_possible_pairs(&spectrum, &mut found.modes);
-    found.warnings.extend(unexplained_peaks(&spectrum, &found.modes));
     found.warnings.extend(impulsive);
-    if found.modes.is_empty() && found.warnings.is_empty() {
-        return Err(IdentifyError::NoMode {
-            from: data.band[0],
-            to: data.band[1],
-            poles: candidates.len(),
-            orders: orders.len(),
-        });
-    }
     Ok(OperationalModes {
         modes: found.modes,
         dofs: record.dofs.clone(),
@@ -222,9 +241,9 @@ fn note_possible_pairs(spectrum: &SpectralDecomposition, modes: &mut [Operationa
 /// Least height of a peak that a mode must explain \[dB\].
 const CLEAR_PEAK_DB: f64 = 10.0;
 
-/// Warnings of peaks of the spectrum that are neither a mode nor a harmonic.
-fn unexplained_peaks(spectrum: &SpectralDecomposition, modes: &[OperationalMode]) -> Vec<String> {
-    let step = match spectrum.frequencies[..] {
+/// Peaks of the spectrum that are neither a mode nor a harmonic.
+fn unexplained_peaks(found: &OperationalModes) -> Vec<SpectralPeak> {
+    let step = match found.spectrum.frequencies[..] {
         [a, b, ..] => b - a,
         _ => return Vec::new(),
     };
@@ -233,17 +252,9 @@ fn unexplained_peaks(spectrum: &SpectralDecomposition, modes: &[OperationalMode]
             let width = m.damping_ratio() * m.frequency_hz() + 3.0 * m.frequency_error + 2.0 * step;
             (m.frequency_hz() - peak.frequency).abs() < width
         };
-        peak.harmonic || modes.iter().any(near)
+        peak.harmonic || found.modes.iter().any(near)
     };
-    let open = spectrum.peaks.iter().filter(|p| p.height_db > CLEAR_PEAK_DB && !explained(p));
-    open.map(|p| {
-        format!(
-            "the spectrum has a peak of {:.0} dB at {:.3} Hz that no mode explains: too short a record for it, a peak of the \
-             forces, or an unsteady harmonic",
-            p.height_db, p.frequency
-        )
-    })
-    .collect()
+    found.spectrum.peaks.iter().filter(|p| p.height_db > CLEAR_PEAK_DB && !explained(p)).cloned().collect()
 }
 
 /// Block rows of the Hankel matrix, and the highest order.

@@ -167,37 +167,44 @@ pub(super) fn subtract_sines(data: &mut Prepared, mut lines: Vec<Harmonic>) -> V
 /// of 16 in one of 10⁷.
 const MEAN_POWER: f64 = 2.5;
 const LARGEST_POWER: f64 = 16.0;
-/// Cycles per window between an order and its neighbours that measure the noise.
-const NEIGHBOURS: [f64; 6] = [-5.0, -4.0, -3.0, 3.0, 4.0, 5.0];
+/// Frequencies around an order that measure the noise: 3 to 5 cycles per window below and above.
+const NEIGHBOURS: usize = 6;
 
 /// Orders with a line in any channel.
 fn orders_with_line(data: &Prepared, theta: &[f64], orders: &[f64], fits: &[Window]) -> Vec<f64> {
-    // What the fit leaves, at frequencies a few cycles per window away.
-    let noise = |own: &Window, o: usize, c: usize| {
-        let span = (own.to - own.from) as f64;
-        let rest = |k: usize| data.samples[c][own.from + k] - own.tracked[c][k];
-        let power = |cycles: &f64| {
-            let phase = |k: usize| orders[o] * theta[own.from + k] + TAU * cycles * k as f64 / span;
-            let sum: Complex64 =
-                (0..own.to - own.from).map(|k| Complex64::from_polar(rest(k), -phase(k))).sum();
-            2.0 * (sum / span).norm_sqr()
-        };
-        NEIGHBOURS.iter().map(power).sum::<f64>() / NEIGHBOURS.len() as f64
-    };
     let has_line = |o: usize| {
-        (0..data.channels()).any(|c| {
-            let (mut power, mut around, mut largest) = (0.0, 0.0, 0.0f64);
-            for own in fits.iter().filter(|own| own.powers[o][c] > 0.0) {
-                let noise = noise(own, o, c).max(f64::MIN_POSITIVE);
-                power += own.powers[o][c];
-                around += noise;
-                largest = largest.max(own.powers[o][c] / noise);
+        let mut sums = vec![[0.0; 3]; data.channels()];
+        for own in fits.iter().filter(|own| own.powers[o].iter().any(|power| *power > 0.0)) {
+            let noise = noise(data, theta, orders[o], own);
+            for ((sum, power), noise) in sums.iter_mut().zip(&own.powers[o]).zip(noise) {
+                *sum = [sum[0] + power, sum[1] + noise, sum[2].max(power / noise.max(f64::MIN_POSITIVE))];
             }
-            power > MEAN_POWER * around || largest > LARGEST_POWER
-        })
+        }
+        sums.iter().any(|[power, noise, largest]| *power > MEAN_POWER * noise || *largest > LARGEST_POWER)
     };
     let found: Vec<bool> = (0..orders.len()).into_par_iter().map(has_line).collect();
     orders.iter().zip(found).filter(|(_, found)| *found).map(|(order, _)| *order).collect()
+}
+
+/// Power in the bandwidth of a window near an order, by channels: of what the fit leaves at its neighbours.
+fn noise(data: &Prepared, theta: &[f64], order: f64, own: &Window) -> Vec<f64> {
+    let span = own.to - own.from;
+    let mut sums = vec![[Complex64::default(); NEIGHBOURS]; data.channels()];
+    for k in 0..span {
+        let base = Complex64::from_polar(1.0, -order * theta[own.from + k]);
+        let one_cycle = Complex64::from_polar(1.0, -TAU * k as f64 / span as f64);
+        let third = one_cycle * one_cycle * one_cycle;
+        let [fourth, fifth] = [third * one_cycle, third * one_cycle * one_cycle];
+        let turns = [fifth.conj(), fourth.conj(), third.conj(), third, fourth, fifth].map(|turn| base * turn);
+        for (c, sums) in sums.iter_mut().enumerate() {
+            let rest = data.samples[c][own.from + k] - own.tracked[c][k];
+            sums.iter_mut().zip(&turns).for_each(|(sum, turn)| *sum += turn * rest);
+        }
+    }
+    let mean = |sums: &[Complex64; NEIGHBOURS]| {
+        sums.iter().map(|sum| 2.0 * (sum / span as f64).norm_sqr()).sum::<f64>() / NEIGHBOURS as f64
+    };
+    sums.iter().map(mean).collect()
 }
 
 /// Overlapping Hann windows, as long as the speed allows; window w covers (w − 1) half .. (w + 1) half.

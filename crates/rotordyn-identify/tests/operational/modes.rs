@@ -120,3 +120,14 @@ fn shapes_of_displacements_and_velocities() {
         assert!(mac(&peak.shape, &shape) > 0.9, "peak of mode {k}");
     }
 }
+
+/// Two weak low modes below strong ones of ten times their frequency: the band is taken apart where their peaks are left over.
+#[test]
+fn weak_low_modes_of_a_wide_band() {
+    let modes = [(24.0, 0.005), (29.0, 0.005), (160.0, 0.012), (222.0, 0.03), (300.0, 0.04), (380.0, 0.02)];
+    let mut machine = Machine::new(&modes, 8, 1000.0, 400.0);
+    machine.modes[..2].iter_mut().for_each(|(_, _, shape)| shape.iter_mut().for_each(|v| *v *= 0.25));
+    machine.sensor_noise = 0.01;
+    let found = identify_operational(&machine.record(9), &OperationalSettings::default()).unwrap();
+    check(&machine, &found);
+}
