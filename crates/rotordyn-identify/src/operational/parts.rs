@@ -3,9 +3,9 @@
 //! Over a wide band the correlations reach over few cycles of the lowest modes, and the strongest modes take most of the state
 //! space. A part of the band is sampled at a lower rate: its correlations are longer in time and hold fewer modes.
 
-use super::result::{OperationalMode, OperationalModes};
+use super::band::identify_band;
+use super::result::{OperationalMode, OperationalModes, SpectralPeak};
 use super::settings::{OperationalSettings, OutputRecord};
-use super::{identify_band, unexplained_peaks};
 
 /// Ratio of neighbouring peaks up to which they belong to one part.
 const NEIGHBOURS: f64 = 1.5;
@@ -45,4 +45,23 @@ pub(super) fn resolve(record: &OutputRecord, settings: &OperationalSettings, fou
             *found = tried;
         }
     }
+}
+
+/// Least height of a peak that a mode must explain \[dB\].
+const CLEAR_PEAK_DB: f64 = 10.0;
+
+/// Peaks of the spectrum that are neither a mode nor a harmonic.
+pub(super) fn unexplained_peaks(found: &OperationalModes) -> Vec<SpectralPeak> {
+    let step = match found.spectrum.frequencies[..] {
+        [a, b, ..] => b - a,
+        _ => return Vec::new(),
+    };
+    let explained = |peak: &SpectralPeak| {
+        let near = |m: &OperationalMode| {
+            let width = m.damping_ratio() * m.frequency_hz() + 3.0 * m.frequency_error + 2.0 * step;
+            (m.frequency_hz() - peak.frequency).abs() < width
+        };
+        peak.harmonic || found.modes.iter().any(near)
+    };
+    found.spectrum.peaks.iter().filter(|p| p.height_db > CLEAR_PEAK_DB && !explained(p)).cloned().collect()
 }

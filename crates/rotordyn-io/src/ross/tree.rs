@@ -34,8 +34,16 @@ impl Tree {
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text).to_string();
         let tree = Self { name: name.into(), text, root: Map::new(), problems: RefCell::default() };
         if let Err(error) = std::str::from_utf8(bytes) {
-            let at = error.valid_up_to();
-            tree.report(Kind::Syntax, at..at + 1, "not UTF-8 text", "a file saved by ROSS, TOML or JSON", "");
+            // In the text that is shown a replacement character stands there, and no byte order mark at the start.
+            let mark = if bytes.starts_with("\u{feff}".as_bytes()) { '\u{feff}'.len_utf8() } else { 0 };
+            let at = error.valid_up_to() - mark;
+            tree.report(
+                Kind::Syntax,
+                at..at + '\u{fffd}'.len_utf8(),
+                "not UTF-8 text",
+                "a file saved by ROSS, TOML or JSON",
+                "",
+            );
             return Err(Unreadable::Content(tree.errors()));
         }
         let parsed = if tree.text.trim_start().starts_with('{') { tree.json() } else { tree.toml() };

@@ -54,7 +54,7 @@ keys! {
         position: Quantities = quantities(any(LENGTH), "three: x, y, z", "Position of the centre of mass.")
             .required("or station").example("\"0, -230, 270 mm\"");
         mass: Quantities = quantities(positive(MASS), "one, or three: x, y, z",
-            "Mass; by axis for the modal mass of a support.").example("\"12 kg\"");
+            "Mass; by axis for the modal mass of a support.").example("\"1.5 kg\"");
         inertia: Quantities = quantities(any(INERTIA), "one, or three: xx, yy, zz",
             "Moments of inertia about the centre of mass.");
         inertia_products: Quantities = quantities(any(INERTIA), "three: xy, yz, zx",
