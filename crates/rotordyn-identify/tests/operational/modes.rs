@@ -1,10 +1,12 @@
 //! All modes are found, and nothing else.
 
+use std::f64::consts::TAU;
+
 use rotordyn_identify::mac::mac;
 use rotordyn_identify::operational::{OperationalModes, OperationalSettings, identify_operational};
 use rotordyn_linalg::Complex64;
 
-use crate::machine::Machine;
+use crate::machine::{Machine, rms};
 
 pub fn print(found: &OperationalModes) {
     for m in &found.modes {
@@ -130,4 +132,24 @@ fn weak_low_modes_of_a_wide_band() {
     machine.sensor_noise = 0.01;
     let found = identify_operational(&machine.record(9), &OperationalSettings::default()).unwrap();
     check(&machine, &found);
+}
+
+/// A free decay of 60 times the usual level at the start, as of a machine switched on: left out, so that it moves no mode.
+#[test]
+fn transient_at_the_start() {
+    let modes = [(12.0, 0.01), (31.0, 0.006), (47.0, 0.02)];
+    let machine = Machine::new(&modes, 6, 160.0, 600.0);
+    let mut record = machine.record(10);
+    for (channel, shape) in record.samples.iter_mut().zip(&machine.modes[0].2) {
+        let level = 60.0 * rms(channel) * shape;
+        for (k, x) in channel.iter_mut().enumerate() {
+            let t = k as f64 / machine.rate;
+            // Near the first mode, and not of it.
+            *x += level * (-t / 3.0).exp() * (TAU * 12.4 * t).cos();
+        }
+    }
+    let found = identify_operational(&record, &OperationalSettings::default()).unwrap();
+    check(&machine, &found);
+    assert!((6.0..60.0).contains(&found.left_out), "{}", found.left_out);
+    assert!(found.warnings.is_empty(), "{:?}", found.warnings);
 }
