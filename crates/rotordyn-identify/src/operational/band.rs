@@ -31,7 +31,7 @@ pub(super) fn identify_band(
     // The harmonics are fitted again without a transient at the start, whose remains would look like some.
     let start = first.data.transient();
     let left_out = start as f64 / first.data.rate;
-    let Steady { data, shaft_speed, mut harmonics } = match start {
+    let Steady { data, shaft_speed, speeds, mut harmonics } = match start {
         0 => first,
         start => without_harmonics(whole.without_start(start), settings),
     };
@@ -76,6 +76,7 @@ pub(super) fn identify_band(
     let spectrum = fdd::decomposition(&data, &channels_of_spectrum, &harmonics)?;
     note_possible_pairs(&spectrum, &mut found.modes);
     found.warnings.extend(impulsive);
+    found.warnings.extend(speed_warning(speeds));
     Ok(OperationalModes {
         modes: found.modes,
         dofs: record.dofs.clone(),
@@ -102,6 +103,8 @@ struct Steady {
     data: Prepared,
     /// \[rev/s\].
     shaft_speed: Option<f64>,
+    /// Speeds below and above which the shaft is for a tenth of the record each \[rev/s\].
+    speeds: Option<[f64; 2]>,
     harmonics: Vec<Harmonic>,
 }
 
@@ -110,7 +113,7 @@ const ROUNDS: usize = 3;
 
 /// Subtracts the orders of the shaft, if its motion is known, and sines of constant frequency.
 fn without_harmonics(mut data: Prepared, settings: &OperationalSettings) -> Steady {
-    let (mut shaft_speed, mut harmonics) = (None, Vec::new());
+    let (mut shaft_speed, mut speeds, mut harmonics) = (None, None, Vec::new());
     if let Some((theta, speed)) = orders::shaft_angle(&data, &settings.shaft, settings.speed_tolerance) {
         let other = match settings.shaft {
             Shaft::Steady(_) => orders::refined_orders(&data, speed, &settings.orders),
@@ -118,6 +121,7 @@ fn without_harmonics(mut data: Prepared, settings: &OperationalSettings) -> Stea
         };
         harmonics = orders::subtract(&mut data, &theta, speed, &other);
         shaft_speed = Some(speed);
+        speeds = Some(orders::usual_speeds(&data, &theta));
     }
     for _ in 0..ROUNDS {
         let lines = lines::constant_sines(&data);
@@ -126,7 +130,21 @@ fn without_harmonics(mut data: Prepared, settings: &OperationalSettings) -> Stea
         }
         harmonics.extend(orders::subtract_sines(&mut data, lines));
     }
-    Steady { data, shaft_speed, harmonics }
+    Steady { data, shaft_speed, speeds, harmonics }
+}
+
+/// Difference of the usual speeds over the larger one from which modes are told to be means.
+const SPEED_SPREAD: f64 = 0.05;
+
+/// Warning of a record over a range of speeds.
+fn speed_warning(speeds: Option<[f64; 2]>) -> Option<String> {
+    let [low, high] = speeds.filter(|[low, high]| high - low > SPEED_SPREAD * high)?;
+    Some(format!(
+        "the shaft runs from {:.0} to {:.0} rpm in this record: modes that depend on the speed (gyroscopic moments, bearings) are \
+         means over it, with too much damping; cut out a part at one speed",
+        60.0 * low,
+        60.0 * high
+    ))
 }
 
 /// Excess kurtosis from which a response is one of hits; 0 under random forces, whatever the modes.

@@ -44,6 +44,19 @@ pub(super) fn shaft_angle(data: &Prepared, shaft: &Shaft, tolerance: f64) -> Opt
     }
 }
 
+/// Speeds \[rev/s\] that a tenth of the record each is below and above.
+pub(super) fn usual_speeds(data: &Prepared, theta: &[f64]) -> [f64; 2] {
+    const PARTS: usize = 100;
+    let length = (data.len() - 1) / PARTS;
+    let speed = |part: usize| {
+        let from = part * length;
+        ((theta[from + length] - theta[from]) / TAU * data.rate / length as f64).abs()
+    };
+    let mut speeds: Vec<f64> = (0..PARTS).map(speed).collect();
+    speeds.sort_by(f64::total_cmp);
+    [speeds[PARTS / 10], speeds[PARTS - 1 - PARTS / 10]]
+}
+
 /// Speed within the tolerance whose multiples stand out most from the spectrum of the record.
 fn refined_speed(data: &Prepared, stated: f64, tolerance: f64) -> f64 {
     let spectrum = Spectrum::new(data);

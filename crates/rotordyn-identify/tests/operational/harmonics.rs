@@ -122,6 +122,7 @@ fn run_up_with_known_angle() {
         OperationalSettings { shaft: Shaft::Angle(theta), orders: vec![3.57], ..Default::default() };
     let found = identify_operational(&record, &settings).unwrap();
     check(&machine, &found);
+    assert!(found.warnings.iter().any(|w| w.contains("the shaft runs from 99")), "{:?}", found.warnings);
 }
 
 /// Records without any sine have none.
