@@ -31,7 +31,7 @@ pub(super) fn identify_band(
     // The harmonics are fitted again without a transient at the start, whose remains would look like some.
     let start = first.data.transient();
     let left_out = start as f64 / first.data.rate;
-    let Steady { data, shaft_speed, speeds, mut harmonics } = match start {
+    let RandomPart { data, shaft_speed, speeds, mut harmonics } = match start {
         0 => first,
         start => without_harmonics(whole.without_start(start), settings),
     };
@@ -98,8 +98,8 @@ pub(super) fn identify_band(
     })
 }
 
-/// A record without harmonics.
-struct Steady {
+/// What is left of a record without its harmonics.
+struct RandomPart {
     data: Prepared,
     /// \[rev/s\].
     shaft_speed: Option<f64>,
@@ -112,7 +112,7 @@ struct Steady {
 const ROUNDS: usize = 3;
 
 /// Subtracts the orders of the shaft, if its motion is known, and sines of constant frequency.
-fn without_harmonics(mut data: Prepared, settings: &OperationalSettings) -> Steady {
+fn without_harmonics(mut data: Prepared, settings: &OperationalSettings) -> RandomPart {
     let (mut shaft_speed, mut speeds, mut harmonics) = (None, None, Vec::new());
     if let Some((theta, speed)) = orders::shaft_angle(&data, &settings.shaft, settings.speed_tolerance) {
         let other = match settings.shaft {
@@ -130,7 +130,7 @@ fn without_harmonics(mut data: Prepared, settings: &OperationalSettings) -> Stea
         }
         harmonics.extend(orders::subtract_sines(&mut data, lines));
     }
-    Steady { data, shaft_speed, speeds, harmonics }
+    RandomPart { data, shaft_speed, speeds, harmonics }
 }
 
 /// Difference of the usual speeds over the larger one from which modes are told to be means.

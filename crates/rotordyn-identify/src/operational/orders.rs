@@ -82,6 +82,9 @@ const CLEAR_LINE: f64 = 21.0;
 
 /// Orders at the lines near them, for a steady speed; an order without a clear line stays as given.
 pub(super) fn refined_orders(data: &Prepared, speed: f64, orders: &[f64]) -> Vec<f64> {
+    if orders.is_empty() {
+        return Vec::new();
+    }
     let spectrum = Spectrum::new(data);
     let refined = |order: &f64| {
         let line = |k: usize| k as f64 * spectrum.step / speed;

@@ -67,7 +67,10 @@ fn stated_speed() {
     check(&machine, &found);
     assert!((found.shaft_speed.unwrap() / 25.13 - 1.0).abs() < 3e-5, "{:?}", found.shaft_speed);
     for (order, _) in ORDERS {
-        let is = |h: &Harmonic| h.removed && h.order.is_some_and(|found| (found / order - 1.0).abs() < 3e-5);
+        // A multiple is exact; another order is refined to half a line of the spectrum, 1/2400 Hz of 90 Hz, over the speed above.
+        let within = if order.fract() == 0.0 { 0.0 } else { 3e-5 };
+        let is =
+            |h: &Harmonic| h.removed && h.order.is_some_and(|found| (found / order - 1.0).abs() <= within);
         assert!(found.harmonics.iter().any(is), "order {order}");
     }
 }

@@ -39,9 +39,9 @@ pub fn impact_frfs_windowed(
     let Some(model) = stored_model(store)? else { return Ok(None) };
     let varying: Vec<&Load> = model.loads.iter().filter(|l| !l.factor.is_constant()).collect();
     let [load] = varying[..] else { return Ok(None) };
-    let history = history_of(&read_recording(store, "")?);
     // A random force is no hit.
     let LoadFactor::Table(points) = &load.factor else { return Ok(None) };
+    let history = history_of(&read_recording(store, "")?);
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return Ok(None) };
     let (size, direction) = magnitude_and_direction(&load.force);
     let force: Vec<f64> = history.time.all()?.iter().map(|t| size * load.factor.at(*t)).collect();
