@@ -19,4 +19,5 @@ mod rigid_rotor;
 mod rotor_maps;
 mod shaft_limits;
 mod shaft_loads;
+mod stiff_springs;
 mod unbalance_phase;

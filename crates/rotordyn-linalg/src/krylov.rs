@@ -153,16 +153,45 @@ impl CoupledGroup {
         self.m.rows()
     }
 
-    /// All its oscillatory eigenpairs.
+    /// All its oscillatory eigenpairs, each from the form of the problem that has it more accurately.
+    ///
+    /// With ω the largest |λ| and ε the round-off, the state matrix A gives λ within ε (ω/|λ|)², which loses the
+    /// low modes beside a stiff spring, and (A − σ)⁻¹ within ε (|λ|/σ)². Both are equal at |λ|² = σ ω.
     fn solve_dense(&self) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
         let mut c = self.c.to_dense();
         if let Some(dense) = &self.dense {
             dense.add_to(1.0, &mut c);
         }
-        let mut pairs = eigen::quadratic(&self.m.to_dense(), &c, &self.k.to_dense())?;
-        pairs.retain(|(value, _)| oscillatory(*value, self.shift));
-        Ok(pairs)
+        let direct = eigen::quadratic(&self.m.to_dense(), &c, &self.k.to_dense())?;
+        let fastest = direct.iter().map(|(value, _)| value.norm()).fold(self.shift, f64::max);
+        let inverted = self.solve_inverted()?;
+        let sizes = inverted.iter().map(|(value, _)| value.norm()).collect();
+        let limit = widest_gap(sizes, (self.shift * fastest).sqrt());
+        let low = inverted.into_iter().filter(|(value, _)| value.norm() < limit);
+        let high = direct.into_iter().filter(|(value, _)| value.norm() >= limit);
+        Ok(low.chain(high).filter(|(value, _)| oscillatory(*value, self.shift)).collect())
     }
+
+    /// The eigenpairs of (A − σ)⁻¹ with Im λ ≥ 0, as pairs of the quadratic problem.
+    fn solve_inverted(&self) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
+        let operator = Arnoldi::new(self)?;
+        let size = 2 * self.order();
+        let unit = |j: usize| (0..size).map(|i| f64::from(u8::from(i == j))).collect::<Vec<_>>();
+        let basis: Vec<Vec<f64>> = (0..size).map(unit).collect();
+        let columns: Vec<Vec<f64>> = basis.iter().map(|x| operator.apply(x)).collect();
+        let pairs = ritz_pairs(&columns, &basis, size, self.shift)?;
+        Ok(pairs.into_iter().map(|r| (r.value, expand(&r.vector, &basis, self.order()))).collect())
+    }
+}
+
+/// The middle of the widest gap between these values in the two decades about `centre`, on a logarithmic scale.
+fn widest_gap(mut values: Vec<f64>, centre: f64) -> f64 {
+    let (low, high) = (0.1 * centre, 10.0 * centre);
+    values.retain(|v| (low..high).contains(v));
+    values.extend([low, high]);
+    values.sort_by(f64::total_cmp);
+    let gaps = values.windows(2).map(|ends| (ends[1] / ends[0], (ends[0] * ends[1]).sqrt()));
+    gaps.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(centre, |(_, middle)| middle)
 }
 
 /// The eigenvalue search in one group.
