@@ -37,7 +37,8 @@ fn every_mode_of_a_chain_on_a_rigid_spring_is_that_of_the_fixed_chain() {
         let deviation = (pair.value.im / expected - 1.0).abs();
         assert!(deviation < 1e-9, "mode {j}: {deviation:e} of {expected} rad/s");
         assert!(pair.value.re.abs() < 1e-9 * expected, "mode {j}: {}", pair.value);
-        assert!(pair.vector[0].norm() < 1e-12 * pair.vector[MASSES].norm(), "mode {j} moves the fixed end");
+        let largest = pair.vector.iter().map(|v| v.norm()).fold(0.0, f64::max);
+        assert!(pair.vector[0].norm() < 1e-11 * largest, "mode {j} moves the fixed end");
     }
     let last = found[MASSES].value.im;
     assert!((last / (GROUND + STIFFNESS).sqrt() - 1.0).abs() < 1e-12, "{last} rad/s");

@@ -253,7 +253,7 @@ fn frf_sensitivity_to_a_table_includes_the_damping_at_standstill() {
 fn patterns_cover_the_damping() {
     let machine = Machine::new(overhung(6, TABLE, RATIO)).unwrap();
     let system = machine.linear_system(300.0).unwrap();
-    let layout = rotordyn::linalg::BandLayout::new(&system.patterns());
+    let layout = &system.layout;
     let mut group = vec![usize::MAX; layout.size()];
     for (g, unknowns) in layout.groups().enumerate() {
         unknowns.iter().for_each(|&i| group[i] = g);

@@ -11,6 +11,8 @@ use nalgebra::ComplexField;
 pub struct BandLayout {
     size: usize,
     blocks: Vec<Block>,
+    /// Block of every unknown and its place in the block; `None` outside a restricted layout.
+    slots: Vec<Option<(usize, usize)>>,
 }
 
 #[derive(Clone, Debug)]
@@ -37,6 +39,14 @@ pub struct ZeroPivot {
 }
 
 impl BandLayout {
+    fn of(size: usize, blocks: Vec<Block>) -> Self {
+        let mut slots = vec![None; size];
+        for (b, block) in blocks.iter().enumerate() {
+            block.order.iter().enumerate().for_each(|(place, &i)| slots[i] = Some((b, place)));
+        }
+        Self { size, blocks, slots }
+    }
+
     /// Layout for matrices with the union of the sparsity `patterns` and their transposes.
     pub fn new(patterns: &[&SparseMatrix]) -> Self {
         let size = patterns.first().map_or(0, |p| p.rows());
@@ -64,7 +74,14 @@ impl BandLayout {
             start += block.order.len() * block.width();
             blocks.push(block);
         }
-        Self { size, blocks }
+        Self::of(size, blocks)
+    }
+
+    /// Layout of one block in the order of the unknowns, which is the elimination order already.
+    pub(super) fn in_order(matrix: &SparseMatrix) -> Self {
+        let size = matrix.rows();
+        let half_bandwidth = matrix.iter().map(|(i, j, _)| i.abs_diff(j)).max().unwrap_or(0);
+        Self::of(size, vec![Block { order: (0..size).collect(), half_bandwidth, start: 0 }])
     }
 
     /// The layout of only those groups that contain one of `unknowns`; solving leaves the others unchanged.
@@ -75,7 +92,7 @@ impl BandLayout {
             blocks.push(Block { start, ..block.clone() });
             start += block.order.len() * block.width();
         }
-        Self { size: self.size, blocks }
+        Self::of(self.size, blocks)
     }
 
     /// Number of unknowns.
@@ -95,15 +112,10 @@ impl BandLayout {
 
     /// Band storage of a matrix; add such arrays entry by entry to combine matrices of one layout.
     pub fn scatter(&self, matrix: &SparseMatrix) -> Vec<f64> {
-        let mut place = vec![None; self.size];
-        for block in &self.blocks {
-            for (p, &i) in block.order.iter().enumerate() {
-                place[i] = Some((block, p));
-            }
-        }
         let mut values = vec![0.0; self.storage()];
         for (i, j, v) in matrix.iter() {
-            if let (Some((block, p)), Some((_, q))) = (place[i], place[j]) {
+            if let (Some((b, p)), Some((_, q))) = (self.slots[i], self.slots[j]) {
+                let block = &self.blocks[b];
                 values[block.start + p * block.width() + block.half_bandwidth + q - p] = v;
             }
         }
@@ -118,7 +130,7 @@ impl BandLayout {
     where
         T: ComplexField<RealField = f64> + Copy,
     {
-        let mut lu = BandLu { layout: self, values, pivots: vec![0; self.size] };
+        let mut lu = self.lu_of(values);
         lu.factor_all()?;
         Ok(lu)
     }
@@ -128,7 +140,15 @@ impl BandLayout {
     where
         T: ComplexField<RealField = f64> + Copy,
     {
-        BandLu { layout: self, values: vec![T::zero(); self.storage()], pivots: vec![0; self.size] }
+        self.lu_of(vec![T::zero(); self.storage()])
+    }
+
+    fn lu_of<T>(&self, values: Vec<T>) -> BandLu<'_, T>
+    where
+        T: ComplexField<RealField = f64> + Copy,
+    {
+        let multipliers = self.blocks.iter().map(|b| b.order.len() * b.half_bandwidth).sum();
+        BandLu { layout: self, values, pivots: vec![0; self.size], multipliers: vec![T::zero(); multipliers] }
     }
 }
 
@@ -138,6 +158,8 @@ pub struct BandLu<'a, T> {
     layout: &'a BandLayout,
     values: Vec<T>,
     pivots: Vec<usize>,
+    /// Those of every column, one after another: a solution runs along them.
+    multipliers: Vec<T>,
 }
 
 impl<T> BandLu<'_, T>
@@ -156,39 +178,43 @@ where
     }
 
     fn factor_all(&mut self) -> Result<(), ZeroPivot> {
-        let mut first = 0;
+        let (mut pivots, mut multipliers) = (self.pivots.as_mut_slice(), self.multipliers.as_mut_slice());
         for block in &self.layout.blocks {
             let n = block.order.len();
             let values = &mut self.values[block.start..block.start + n * block.width()];
-            factor_block(values, &mut self.pivots[first..first + n], block.half_bandwidth)
+            let (own_pivots, rest) = pivots.split_at_mut(n);
+            let (own_multipliers, other) = multipliers.split_at_mut(n * block.half_bandwidth);
+            factor_block(values, own_pivots, own_multipliers, block.half_bandwidth)
                 .map_err(|at| ZeroPivot { unknown: block.order[at] })?;
-            first += n;
+            (pivots, multipliers) = (rest, other);
         }
         Ok(())
     }
 
     /// Solves A x = b in place.
     pub fn solve(&self, b: &mut [T]) {
-        let mut first = 0;
+        let (mut pivots, mut multipliers) = (self.pivots.as_slice(), self.multipliers.as_slice());
         let mut x = Vec::new();
         for block in &self.layout.blocks {
             let n = block.order.len();
+            let (own_pivots, rest) = pivots.split_at(n);
+            let (own_multipliers, other) = multipliers.split_at(n * block.half_bandwidth);
             if block.order.iter().any(|&i| b[i] != T::zero()) {
                 x.clear();
                 x.extend(block.order.iter().map(|&i| b[i]));
                 let values = &self.values[block.start..block.start + n * block.width()];
-                solve_block(values, &self.pivots[first..first + n], block.half_bandwidth, &mut x);
+                solve_block(values, own_pivots, own_multipliers, block.half_bandwidth, &mut x);
                 for (&i, &v) in block.order.iter().zip(&x) {
                     b[i] = v;
                 }
             }
-            first += n;
+            (pivots, multipliers) = (rest, other);
         }
     }
 }
 
-/// Row p contains columns p − half ..= p + 2 half at p·width; the multipliers are stored in the lower part.
-fn factor_block<T>(a: &mut [T], pivots: &mut [usize], half: usize) -> Result<(), usize>
+/// Row p contains columns p − half ..= p + 2 half at p·width.
+fn factor_block<T>(a: &mut [T], pivots: &mut [usize], multipliers: &mut [T], half: usize) -> Result<(), usize>
 where
     T: ComplexField<RealField = f64> + Copy,
 {
@@ -217,11 +243,13 @@ where
         for r in j + 1..=last {
             let (head, tail) = a.split_at_mut(r * w);
             let row = &mut tail[half + j - r..];
+            let multiplier = &mut multipliers[j * half + r - j - 1];
             if row[0] == T::zero() {
+                *multiplier = T::zero();
                 continue;
             }
             let factor = row[0] / value;
-            row[0] = factor;
+            *multiplier = factor;
             let from = &head[j * w + half + 1..][..reach];
             for (x, &u) in row[1..=reach].iter_mut().zip(from) {
                 *x -= factor * u;
@@ -231,7 +259,7 @@ where
     Ok(())
 }
 
-fn solve_block<T>(a: &[T], pivots: &[usize], half: usize, x: &mut [T])
+fn solve_block<T>(a: &[T], pivots: &[usize], multipliers: &[T], half: usize, x: &mut [T])
 where
     T: ComplexField<RealField = f64> + Copy,
 {
@@ -239,18 +267,25 @@ where
     for j in 0..n {
         x.swap(j, pivots[j]);
         let xj = x[j];
-        for r in j + 1..=(j + half).min(n - 1) {
-            x[r] -= a[r * w + half + j - r] * xj;
+        for (x, &factor) in x[j + 1..].iter_mut().zip(&multipliers[j * half..(j + 1) * half]) {
+            *x -= factor * xj;
         }
     }
     for j in (0..n).rev() {
         let reach = (2 * half).min(n - 1 - j);
         let row = &a[j * w + half..][..=reach];
-        let mut s = x[j];
-        for (&u, &v) in row[1..].iter().zip(&x[j + 1..]) {
-            s -= u * v;
+        // Two sums, neither of which waits for the other.
+        let (pairs, rest) = row[1..].as_chunks::<2>();
+        let (known, known_rest) = x[j + 1..=j + reach].as_chunks::<2>();
+        let (mut s, mut other) = (x[j], T::zero());
+        for ([u, v], [y, z]) in pairs.iter().zip(known) {
+            s -= *u * *y;
+            other -= *v * *z;
         }
-        x[j] = s / row[0];
+        for (&u, &y) in rest.iter().zip(known_rest) {
+            s -= u * y;
+        }
+        x[j] = (s + other) / row[0];
     }
 }
 

@@ -4,10 +4,10 @@
 //! extending the one with the lowest converged eigenvalue. Without gyroscopic effect the block size is two,
 //! to find the double eigenvalues of an axisymmetric rotor at rest, which rotation splits.
 
-use super::dot::partial_sums;
+use super::arnoldi::Arnoldi;
+use super::coupled_group::CoupledGroup;
 use super::eigen::{self, EigenError};
-use super::refinement::{NEGLIGIBLE, PreciseResidual, refine, relative_size};
-use super::{BandLayout, BandLu, Complex64, DenseLu, GroupDense, SparseMatrix, Triplets};
+use super::{BandLayout, Complex64, GroupDense, SparseMatrix};
 use nalgebra::DMatrix;
 
 /// Residual of an accepted Ritz pair relative to its value.
@@ -44,26 +44,18 @@ pub fn lowest_eigenpairs(
     count: usize,
     shift: f64,
 ) -> Result<Vec<QuadraticPair>, EigenError> {
-    search([m, c, k], &BandLayout::new(&[m, c, k]), None, count, shift)
+    lowest_eigenpairs_with([m, c, k], None, &BandLayout::new(&[m, c, k]), count, shift)
 }
 
-/// As [`lowest_eigenpairs`] with the damping C + `dense`, whose blocks are coupled by the sparsity `pattern`.
+/// As [`lowest_eigenpairs`], with a known layout for the matrices and the damping C + `dense`, whose groups are those of the
+/// layout.
 ///
 /// # Errors
 /// As [`lowest_eigenpairs`].
 pub fn lowest_eigenpairs_with(
-    [m, c, k]: [&SparseMatrix; 3],
-    (dense, pattern): (&GroupDense, &SparseMatrix),
-    count: usize,
-    shift: f64,
-) -> Result<Vec<QuadraticPair>, EigenError> {
-    search([m, c, k], &BandLayout::new(&[m, c, k, pattern]), Some(dense), count, shift)
-}
-
-fn search(
     matrices: [&SparseMatrix; 3],
-    layout: &BandLayout,
     dense: Option<&GroupDense>,
+    layout: &BandLayout,
     count: usize,
     shift: f64,
 ) -> Result<Vec<QuadraticPair>, EigenError> {
@@ -107,81 +99,46 @@ fn oscillatory(value: Complex64, shift: f64) -> bool {
     value.im > 1e-6 * value.norm() && value.norm() > 1e-3 * shift
 }
 
-/// Submatrix of a group of unknowns.
-fn submatrix(a: &SparseMatrix, unknowns: &[usize]) -> SparseMatrix {
-    let mut place = vec![None; a.rows()];
-    for (p, &i) in unknowns.iter().enumerate() {
-        place[i] = Some(p);
+/// Eigenpairs over the unknowns of a group.
+type GroupPairs = Vec<(Complex64, Vec<Complex64>)>;
+
+/// All oscillatory eigenpairs of a group, each from the form of the problem that has it more accurately.
+///
+/// With ω the largest |λ| and ε the round-off, the state matrix A gives λ within ε (ω/|λ|)², which loses the low modes
+/// beside a stiff spring, and (A − σ)⁻¹ within ε (|λ|/σ)². Both are equal at |λ|² = σ ω.
+fn all_eigenpairs(group: &CoupledGroup) -> Result<GroupPairs, EigenError> {
+    let mut c = group.c.to_dense();
+    if let Some(dense) = &group.dense {
+        dense.add_to(1.0, &mut c);
     }
-    let mut out = Triplets::new(unknowns.len(), unknowns.len());
-    for (q, &j) in unknowns.iter().enumerate() {
-        for (i, v) in a.column(j) {
-            if let Some(p) = place[i] {
-                out.add(p, q, v);
-            }
-        }
-    }
-    out.build()
+    let direct = eigen::quadratic(&group.m.to_dense(), &c, &group.k.to_dense())?;
+    let fastest = direct.iter().map(|(value, _)| value.norm()).fold(group.shift, f64::max);
+    let inverted = inverted_eigenpairs(group)?;
+    let sizes = inverted.iter().map(|(value, _)| value.norm()).collect();
+    let limit = widest_gap(sizes, (group.shift * fastest).sqrt());
+    let low = inverted.into_iter().filter(|(value, _)| value.norm() < limit);
+    let high = direct.into_iter().filter(|(value, _)| value.norm() >= limit);
+    Ok(low.chain(high).filter(|(value, _)| oscillatory(*value, group.shift)).collect())
 }
 
-/// One group of coupled unknowns.
-struct CoupledGroup {
-    m: SparseMatrix,
-    c: SparseMatrix,
-    k: SparseMatrix,
-    /// Further part of C, dense within groups.
-    dense: Option<GroupDense>,
-    /// C + σ M without the dense part.
-    damp: SparseMatrix,
-    /// K + σ C + σ² M without the dense part.
-    shifted: SparseMatrix,
-    layout: BandLayout,
-    shift: f64,
-}
-
-impl CoupledGroup {
-    fn new(matrices: [&SparseMatrix; 3], dense: Option<&GroupDense>, unknowns: &[usize], shift: f64) -> Self {
-        let [m, c, k] = matrices.map(|a| submatrix(a, unknowns));
-        let damp = SparseMatrix::sum(&[(1.0, &c), (shift, &m)]);
-        let shifted = SparseMatrix::sum(&[(1.0, &k), (shift, &damp)]);
-        let layout = BandLayout::new(&[&shifted]);
-        let dense = dense.map(|dense| dense.submatrix(unknowns));
-        Self { m, c, k, dense, damp, shifted, layout, shift }
+/// The eigenpairs of (A − σ)⁻¹ with Im λ ≥ 0, as pairs of the quadratic problem.
+fn inverted_eigenpairs(group: &CoupledGroup) -> Result<GroupPairs, EigenError> {
+    let operator = Arnoldi::new(group)?;
+    let size = 2 * group.order();
+    let mut inverse = DMatrix::zeros(size, size);
+    let mut unit = vec![0.0; size];
+    for j in 0..size {
+        unit[j] = 1.0;
+        inverse.column_mut(j).copy_from_slice(&operator.apply(&unit));
+        unit[j] = 0.0;
     }
-
-    fn order(&self) -> usize {
-        self.m.rows()
-    }
-
-    /// All its oscillatory eigenpairs, each from the form of the problem that has it more accurately.
-    ///
-    /// With ω the largest |λ| and ε the round-off, the state matrix A gives λ within ε (ω/|λ|)², which loses the
-    /// low modes beside a stiff spring, and (A − σ)⁻¹ within ε (|λ|/σ)². Both are equal at |λ|² = σ ω.
-    fn solve_dense(&self) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
-        let mut c = self.c.to_dense();
-        if let Some(dense) = &self.dense {
-            dense.add_to(1.0, &mut c);
-        }
-        let direct = eigen::quadratic(&self.m.to_dense(), &c, &self.k.to_dense())?;
-        let fastest = direct.iter().map(|(value, _)| value.norm()).fold(self.shift, f64::max);
-        let inverted = self.solve_inverted()?;
-        let sizes = inverted.iter().map(|(value, _)| value.norm()).collect();
-        let limit = widest_gap(sizes, (self.shift * fastest).sqrt());
-        let low = inverted.into_iter().filter(|(value, _)| value.norm() < limit);
-        let high = direct.into_iter().filter(|(value, _)| value.norm() >= limit);
-        Ok(low.chain(high).filter(|(value, _)| oscillatory(*value, self.shift)).collect())
-    }
-
-    /// The eigenpairs of (A − σ)⁻¹ with Im λ ≥ 0, as pairs of the quadratic problem.
-    fn solve_inverted(&self) -> Result<Vec<(Complex64, Vec<Complex64>)>, EigenError> {
-        let operator = Arnoldi::new(self)?;
-        let size = 2 * self.order();
-        let unit = |j: usize| (0..size).map(|i| f64::from(u8::from(i == j))).collect::<Vec<_>>();
-        let basis: Vec<Vec<f64>> = (0..size).map(unit).collect();
-        let columns: Vec<Vec<f64>> = basis.iter().map(|x| operator.apply(x)).collect();
-        let pairs = ritz_pairs(&columns, &basis, size, self.shift)?;
-        Ok(pairs.into_iter().map(|r| (r.value, expand(&r.vector, &basis, self.order()))).collect())
-    }
+    let pairs = eigen::general_small(&inverse)?.into_iter().filter(|(theta, _)| theta.norm() > 0.0);
+    // θ = 1/(λ − σ) of a pair has Im θ > 0 where Im λ < 0.
+    let pair = |(theta, state): (Complex64, Vec<Complex64>)| {
+        let shape = state[..group.order()].iter().map(Complex64::conj).collect();
+        (theta.conj().inv() + group.shift, shape)
+    };
+    Ok(pairs.map(pair).collect())
 }
 
 /// The middle of the widest gap between these values in the two decades about `centre`, on a logarithmic scale.
@@ -213,13 +170,13 @@ impl<'a> Search<'a> {
     }
 
     fn dense(part: &'a CoupledGroup) -> Result<Self, EigenError> {
-        Ok(Self { part, converged: part.solve_dense()?, reach: f64::INFINITY, arnoldi: None })
+        Ok(Self { part, converged: all_eigenpairs(part)?, reach: f64::INFINITY, arnoldi: None })
     }
 
     /// Extends the basis; the first one is sized for `share` pairs.
     fn extend(&mut self, share: usize) -> Result<(), EigenError> {
         let Some(arnoldi) = &mut self.arnoldi else { return Ok(()) };
-        let size = match arnoldi.columns.len() {
+        let size = match arnoldi.size() {
             0 => first_basis(share, arnoldi.block),
             size => size + 8 + size / 8,
         };
@@ -229,243 +186,25 @@ impl<'a> Search<'a> {
             return Ok(());
         }
         arnoldi.grow(size);
-        let mut ritz = ritz_pairs(&arnoldi.columns, &arnoldi.basis, size, self.part.shift)?;
+        self.converged.clear();
+        self.reach = 0.0;
         // Overdamped eigenvalues accumulate at −1/β under damping β K and converge slowly: they are ignored.
-        ritz.retain(|r| r.residual < MAX_RITZ_RESIDUAL && oscillatory(r.value, self.part.shift));
-        let converged = ritz.iter().take_while(|r| r.residual < TOLERANCE).count();
-        let last = ritz[..converged].last().map_or(0.0, |r| r.value.norm());
-        // The next one is accurate enough to exclude any other below half of it.
-        let next = ritz.get(converged).map_or(0.0, |r| 0.5 * r.value.norm());
-        self.reach = last.max(next);
-        ritz.truncate(converged);
-        self.converged = ritz.into_iter().map(|r| (r.value, r.vector)).collect();
+        let shift = self.part.shift;
+        let found = arnoldi.ritz_pairs()?.filter(|r| oscillatory(r.value, shift));
+        for ritz in found.filter(|r| r.residual < MAX_RITZ_RESIDUAL) {
+            if ritz.residual >= TOLERANCE {
+                // Accurate enough to exclude any other below half of it.
+                self.reach = self.reach.max(0.5 * ritz.value.norm());
+                break;
+            }
+            self.reach = ritz.value.norm();
+            self.converged.push((ritz.value, ritz.vector));
+        }
         Ok(())
     }
 
     /// The eigenvector over the group's unknowns.
     fn expand(&self, vector: &[Complex64]) -> Vec<Complex64> {
-        match &self.arnoldi {
-            Some(arnoldi) => expand(vector, &arnoldi.basis, self.part.order()),
-            None => vector.to_vec(),
-        }
-    }
-}
-
-/// Factors of K + σ C + σ² M: banded, or dense if C has a dense part.
-enum Factors<'a> {
-    Band(BandLu<'a, f64>),
-    Dense(DenseLu),
-}
-
-impl<'a> Factors<'a> {
-    fn new(part: &'a CoupledGroup) -> Result<Self, EigenError> {
-        let factors = match &part.dense {
-            None => part.layout.factor(part.layout.scatter(&part.shifted)).ok().map(Self::Band),
-            Some(dense) => {
-                let mut matrix = part.shifted.to_dense();
-                dense.add_to(part.shift, &mut matrix);
-                DenseLu::new(&matrix).map(Self::Dense)
-            }
-        };
-        factors.ok_or(EigenError::SingularShift)
-    }
-
-    fn solve(&self, b: &mut [f64]) {
-        match self {
-            Self::Band(lu) => lu.solve(b),
-            Self::Dense(lu) => lu.solve(b),
-        }
-    }
-}
-
-/// Orthonormal basis of the Krylov space of (A − σ)⁻¹ over the states (q, v/σ), v = λ q.
-///
-/// The factor 1/σ balances the two halves of the wanted vectors.
-struct Arnoldi<'a> {
-    part: &'a CoupledGroup,
-    lu: Factors<'a>,
-    /// Whether round-off of the direct solution would show.
-    refined: bool,
-    /// Block size: number of start vectors.
-    block: usize,
-    basis: Vec<Vec<f64>>,
-    /// Hessenberg matrix: column j is the image of basis vector j in the basis.
-    columns: Vec<Vec<f64>>,
-    noise: PseudoRandom,
-}
-
-impl<'a> Arnoldi<'a> {
-    fn new(part: &'a CoupledGroup) -> Result<Self, EigenError> {
-        let lu = Factors::new(part)?;
-        let largest = part.c.iter().map(|(_, _, v)| v.abs()).fold(0.0, f64::max);
-        let rotating = part.c.iter().any(|(i, j, v)| (v - part.c.get(j, i)).abs() > 1e-9 * largest);
-        let block = if rotating { 1 } else { 2 };
-        let noise = PseudoRandom(0x9E37_79B9_7F4A_7C15);
-        let mut new = Self { part, lu, refined: false, block, basis: Vec::new(), columns: Vec::new(), noise };
-        new.refined = new.shows_round_off();
-        for _ in 0..block {
-            let random: Vec<f64> = (0..2 * part.order()).map(|_| new.noise.next()).collect();
-            let start = new.apply(&random);
-            orthonormalise(start, &mut new.basis, &mut new.noise);
-        }
-        Ok(new)
-    }
-
-    /// Whether the direct solution under inertia of equal accelerations has errors that show.
-    fn shows_round_off(&self) -> bool {
-        let load = self.part.m.mul(&vec![1.0; self.part.order()]);
-        let mut x = load.clone();
-        self.lu.solve(&mut x);
-        relative_size(&self.correction(&load, &x), &x) > NEGLIGIBLE
-    }
-
-    /// (K + σ C + σ² M)⁻¹ (b − (K + σ C + σ² M) x).
-    fn correction(&self, b: &[f64], x: &[f64]) -> Vec<f64> {
-        let mut residual = PreciseResidual::of(b);
-        // Their sum is rounded, so that its rows no longer cancel for rigid-body motion.
-        residual.subtract(1.0, &self.part.k, x);
-        residual.subtract(self.part.shift, &self.part.damp, x);
-        let mut out = residual.values();
-        if let Some(dense) = &self.part.dense {
-            // Damping acts on what the motion is, not on small differences of it: its products need no more digits.
-            dense.mul_add(-self.part.shift, x, &mut out);
-        }
-        self.lu.solve(&mut out);
-        out
-    }
-
-    /// (A − σ)⁻¹ x.
-    fn apply(&self, x: &[f64]) -> Vec<f64> {
-        let (n, shift) = (self.part.order(), self.part.shift);
-        let (a, b) = x.split_at(n);
-        let mut q = vec![0.0; n];
-        self.part.m.mul_add(-shift, b, &mut q);
-        self.part.damp.mul_add(-1.0, a, &mut q);
-        if let Some(dense) = &self.part.dense {
-            dense.mul_add(-1.0, a, &mut q);
-        }
-        if self.refined {
-            let load = q.clone();
-            self.lu.solve(&mut q);
-            refine(&mut q, |q| self.correction(&load, q));
-        } else {
-            self.lu.solve(&mut q);
-        }
-        let v: Vec<f64> = q.iter().zip(a).map(|(q, a)| q + a / shift).collect();
-        q.extend(v);
-        q
-    }
-
-    /// Continues to `size` columns.
-    fn grow(&mut self, size: usize) {
-        while self.columns.len() < size {
-            let image = self.apply(&self.basis[self.columns.len()]);
-            self.columns.push(orthonormalise(image, &mut self.basis, &mut self.noise));
-        }
-    }
-}
-
-struct Ritz {
-    value: Complex64,
-    vector: Vec<Complex64>,
-    /// ‖A x − θ x‖ / |θ|.
-    residual: f64,
-}
-
-/// Ritz pairs of the projected operator with Im λ ≥ 0, lowest |λ| first.
-fn ritz_pairs(
-    columns: &[Vec<f64>],
-    basis: &[Vec<f64>],
-    size: usize,
-    shift: f64,
-) -> Result<Vec<Ritz>, EigenError> {
-    let h = DMatrix::from_fn(basis.len(), size, |i, j| columns[j].get(i).copied().unwrap_or(0.0));
-    let rest = h.rows(size, basis.len() - size);
-    let mut ritz: Vec<Ritz> = eigen::general_small(&h.rows(0, size).into_owned())?
-        .into_iter()
-        .filter(|(theta, _)| theta.norm() > 0.0)
-        .map(|(theta, y)| {
-            let image =
-                |r: nalgebra::RowDVector<f64>| r.iter().zip(&y).map(|(h, y)| y * *h).sum::<Complex64>();
-            let left: f64 = rest.row_iter().map(|r| image(r.into_owned()).norm_sqr()).sum();
-            let size: f64 = y.iter().map(|v| v.norm_sqr()).sum();
-            // θ = 1/(λ − σ) has Im θ < 0 where Im λ > 0; of a conjugate pair the one with Im θ > 0 is given.
-            Ritz {
-                value: theta.conj().inv() + shift,
-                residual: (left / size).sqrt() / theta.norm(),
-                vector: y.into_iter().map(|v| v.conj()).collect(),
-            }
-        })
-        .collect();
-    ritz.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()).then(a.value.im.total_cmp(&b.value.im)));
-    Ok(ritz)
-}
-
-/// The first half (q) of the state vector with these coordinates in the basis.
-fn expand(y: &[Complex64], basis: &[Vec<f64>], n: usize) -> Vec<Complex64> {
-    let mut q = vec![Complex64::default(); n];
-    for (&y, b) in y.iter().zip(basis) {
-        for (q, &b) in q.iter_mut().zip(b) {
-            *q += y * b;
-        }
-    }
-    q
-}
-
-/// Appends x, orthonormalised against the basis (Gram-Schmidt); returns its coordinates (the last is its
-/// remaining length).
-fn orthonormalise(mut x: Vec<f64>, basis: &mut Vec<Vec<f64>>, noise: &mut PseudoRandom) -> Vec<f64> {
-    let mut h = vec![0.0; basis.len() + 1];
-    let before = norm(&x);
-    // Twice is enough (Parlett & Kahan).
-    for _ in 0..2 {
-        project_out(&mut x, basis, &mut h);
-    }
-    let length = norm(&x);
-    if length > 1e-13 * before && length > 0.0 {
-        h[basis.len()] = length;
-        x.iter_mut().for_each(|v| *v /= length);
-    } else {
-        // Invariant subspace (breakdown): continue with a random direction.
-        x = (0..x.len()).map(|_| noise.next()).collect();
-        for _ in 0..2 {
-            project_out(&mut x, basis, &mut vec![0.0; basis.len()]);
-        }
-        let length = norm(&x);
-        x.iter_mut().for_each(|v| *v /= length);
-    }
-    basis.push(x);
-    h
-}
-
-fn project_out(x: &mut [f64], basis: &[Vec<f64>], h: &mut [f64]) {
-    for (b, h) in basis.iter().zip(h) {
-        let part = dot(b, x);
-        *h += part;
-        for (x, b) in x.iter_mut().zip(b) {
-            *x -= part * b;
-        }
-    }
-}
-
-/// Dot product in four partial sums, which the compiler can vectorise.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (sums, tail) = partial_sums(a, b);
-    sums.iter().sum::<f64>() + tail
-}
-
-fn norm(x: &[f64]) -> f64 {
-    dot(x, x).sqrt()
-}
-
-/// Fixed pseudo-random numbers in (−1, 1) (xorshift64), for bitwise reproducible runs.
-struct PseudoRandom(u64);
-
-impl PseudoRandom {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        self.arnoldi.as_ref().map_or_else(|| vector.to_vec(), |arnoldi| arnoldi.expand(vector))
     }
 }

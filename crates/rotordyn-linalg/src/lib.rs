@@ -7,11 +7,14 @@
 //! | [`band_matrix`] | the banded [`BandMatrix`] in natural order |
 //! | [`fft_length`](mod@fft_length) | efficient lengths for fast Fourier transforms |
 //! | [`gmres`](mod@gmres) | preconditioned GMRES |
+//! | [`hessenberg`] | eigenvalues and single eigenvectors of a Hessenberg matrix |
 //! | [`inertia`] | number of negative eigenvalues of a banded Hermitian matrix |
 //! | [`dot`](mod@dot), [`piecewise`](mod@piecewise) | scalar products; piecewise-linear tables |
 //! | [`dense_lu`] | LU factors of a dense matrix ([`DenseLu`]) |
 //! | [`eigen`] | dense eigenvalue problems, with workarounds for faer |
 //! | [`group_dense`] | symmetric matrices dense within groups of unknowns ([`GroupDense`]) |
+//! | `coupled_group`, `arnoldi` | the eigenvalue problem of one group, its Krylov space |
+//! | `known_layouts` | band layouts computed once for matrices of one sparsity ([`KnownLayouts`]) |
 //! | [`krylov`] | lowest eigenvalues of λ² M + λ C + K (shift-and-invert Arnoldi) |
 //! | [`panel`] | dense matrix-vector products of a time step |
 //! | [`pchip`] | monotone cubic interpolation |
@@ -19,15 +22,19 @@
 //! | [`small_dense`] | small dense linear systems |
 //! | [`spline`] | interpolating cubic spline |
 
+mod arnoldi;
 pub mod band_lu;
 pub mod band_matrix;
+mod coupled_group;
 pub mod dense_lu;
 pub mod dot;
 pub mod eigen;
 pub mod fft_length;
 pub mod gmres;
 pub mod group_dense;
+pub mod hessenberg;
 pub mod inertia;
+mod known_layouts;
 pub mod krylov;
 pub mod panel;
 pub mod pchip;
@@ -44,6 +51,7 @@ pub use dot::dot;
 pub use fft_length::fft_length;
 pub use gmres::gmres;
 pub use group_dense::GroupDense;
+pub use known_layouts::KnownLayouts;
 pub use piecewise::{Outside, piecewise, piecewise_within};
 pub use sparse::{SparseMatrix, SparseRow, Triplets};
 

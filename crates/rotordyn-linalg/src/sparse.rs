@@ -192,33 +192,50 @@ impl SparseMatrix {
         out.build()
     }
 
-    /// Σ factor × matrix over matrices of one size.
+    /// Σ factor × matrix over matrices of one size; entries that sum to exactly zero are dropped.
     pub fn sum(terms: &[(f64, &SparseMatrix)]) -> SparseMatrix {
         let (rows, cols) = terms.first().map_or((0, 0), |(_, a)| (a.rows(), a.cols()));
-        let mut out = SparseMatrix::zeros(rows, cols);
-        let (mut column, mut touched) = (vec![0.0; rows], Vec::new());
-        let mut seen = vec![usize::MAX; rows];
-        let mut columns = Vec::new();
+        let terms: Vec<_> = terms.iter().filter(|(factor, _)| *factor != 0.0).collect();
+        let most = terms.iter().map(|(_, a)| a.values.len()).sum();
+        let mut out = SparseMatrix {
+            rows,
+            start: Vec::with_capacity(cols + 1),
+            row_index: Vec::with_capacity(most),
+            values: Vec::with_capacity(most),
+        };
+        out.start.push(0);
+        // Next entry of every term: the columns are merged, each sorted by rows.
+        let mut next = vec![0; terms.len()];
         for j in 0..cols {
-            for (factor, matrix) in terms.iter().filter(|(factor, _)| *factor != 0.0) {
-                for (i, v) in matrix.column(j) {
-                    if seen[i] != j {
-                        seen[i] = j;
-                        column[i] = 0.0;
-                        touched.push(i);
+            let row = |k: usize, at: usize| {
+                let matrix = terms[k].1;
+                if at < matrix.start[j + 1] { matrix.row_index[at] } else { rows }
+            };
+            loop {
+                let lowest = next.iter().enumerate().map(|(k, &at)| row(k, at)).min().unwrap_or(rows);
+                if lowest == rows {
+                    break;
+                }
+                let mut sum = 0.0;
+                for (k, at) in next.iter_mut().enumerate() {
+                    if row(k, *at) == lowest {
+                        sum += terms[k].0 * terms[k].1.values[*at];
+                        *at += 1;
                     }
-                    column[i] += factor * v;
+                }
+                if sum != 0.0 {
+                    out.row_index.push(lowest);
+                    out.values.push(sum);
                 }
             }
-            touched.sort_unstable();
-            for i in touched.drain(..) {
-                out.row_index.push(i);
-                out.values.push(column[i]);
-                columns.push(j);
-            }
+            out.start.push(out.values.len());
         }
-        out.compress(&columns);
         out
+    }
+
+    /// Whether both matrices have entries at the same positions.
+    pub(super) fn same_pattern(&self, other: &SparseMatrix) -> bool {
+        self.rows == other.rows && self.start == other.start && self.row_index == other.row_index
     }
 
     /// Congruence transformation Tᵀ A T, `basis[i]` being row i of T.
@@ -232,6 +249,22 @@ impl SparseMatrix {
             }
         }
         out.build()
+    }
+
+    /// Rows and columns `unknowns`, in this order; `place` has the position of every unknown in it.
+    pub(super) fn submatrix(&self, unknowns: &[usize], place: &[Option<usize>]) -> SparseMatrix {
+        let mut out =
+            SparseMatrix { rows: unknowns.len(), start: vec![0], row_index: vec![], values: vec![] };
+        let mut column: Vec<(usize, f64)> = Vec::new();
+        for &j in unknowns {
+            column.clear();
+            column.extend(self.column(j).filter_map(|(i, v)| Some((place[i]?, v))));
+            column.sort_unstable_by_key(|(i, _)| *i);
+            out.row_index.extend(column.iter().map(|(i, _)| i));
+            out.values.extend(column.iter().map(|(_, v)| v));
+            out.start.push(out.values.len());
+        }
+        out
     }
 
     /// Largest magnitude of an entry.

@@ -15,7 +15,7 @@ use crate::document::{Document, Rows, in_hdf5, in_json, named};
 use crate::model::{Model, ShaftExtent};
 use rotordyn_bearing::{BearingElement, Reaction, Rotation, SiteTangent};
 use rotordyn_linalg::refinement::{NEGLIGIBLE, PreciseResidual, refine};
-use rotordyn_linalg::{BandLayout, SparseMatrix, Triplets, dot};
+use rotordyn_linalg::{SparseMatrix, Triplets, dot};
 use serde::{Deserialize, Serialize};
 
 /// Residual over the largest load or bearing force.
@@ -153,7 +153,7 @@ pub fn equilibrium(
     let sites = Sites::new(model, speed, cage);
     let load = external_load(assembly);
     let external = max_abs(&load).max(1e-6);
-    let layout = BandLayout::new(&[&assembly.mass, &assembly.stiffness, &bearing_pattern(assembly)]);
+    let layout = assembly.layouts.layout(&[&assembly.mass, &assembly.stiffness, &bearing_pattern(assembly)]);
     let stiffness = layout.scatter(&assembly.stiffness);
     let mass = layout.scatter(&assembly.mass);
 

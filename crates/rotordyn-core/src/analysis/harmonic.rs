@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use rotordyn_linalg::refinement::{NEGLIGIBLE, PreciseResidual, complex_values, refine, relative_size};
 use rotordyn_linalg::{BandLayout, BandLu, Complex64, ZeroPivot, gmres};
 use std::collections::HashSet;
+use std::sync::Arc;
 
 /// Relative change of the solution at which the iteration with modal damping ends.
 const TOLERANCE: f64 = 1e-13;
@@ -16,7 +17,7 @@ const MAX_PRODUCTS: usize = 60;
 /// Band storage of a linear system for harmonic solutions at any number of frequencies.
 pub struct HarmonicSystem<'a> {
     system: &'a LinearSystem,
-    layout: BandLayout,
+    layout: Arc<BandLayout>,
     mass: Vec<f64>,
     damping: Vec<f64>,
     stiffness: Vec<f64>,
@@ -27,8 +28,10 @@ pub struct HarmonicSystem<'a> {
 impl<'a> HarmonicSystem<'a> {
     /// Prepares the groups of unknowns coupled to those in `reached`, all of them with `None`.
     pub fn new(system: &'a LinearSystem, reached: Option<&[usize]>) -> Self {
-        let layout = BandLayout::new(&system.patterns());
-        let layout = reached.map_or(layout.clone(), |reached| layout.restricted_to(reached));
+        let layout = match reached {
+            Some(reached) => Arc::new(system.layout.restricted_to(reached)),
+            None => system.layout.clone(),
+        };
         let [mass, damping, stiffness] =
             [&system.mass, &system.damping, &system.stiffness].map(|a| layout.scatter(a));
         let modal = system.modal.as_deref().map(|modal| (modal, layout.scatter(&modal.stiffness)));

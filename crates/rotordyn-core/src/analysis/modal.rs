@@ -47,13 +47,9 @@ pub(super) fn eigenpairs(
 ) -> Result<Vec<Eigenpair>, PhysicsError> {
     let failed = |reason: String| PhysicsError::Eigen { speed_rpm: system.speed * 60.0 / TAU, reason };
     let [m, d, s] = [&system.mass, &system.damping, &system.stiffness];
-    let mut pairs = match &system.modal {
-        None => krylov::lowest_eigenpairs(m, d, s, count, SHIFT),
-        Some(modal) => {
-            krylov::lowest_eigenpairs_with([m, d, s], (&modal.matrix, &modal.stiffness), count, SHIFT)
-        }
-    }
-    .map_err(|e| failed(e.to_string()))?;
+    let dense = system.modal.as_ref().map(|modal| &modal.matrix);
+    let mut pairs = krylov::lowest_eigenpairs_with([m, d, s], dense, &system.layout, count, SHIFT)
+        .map_err(|e| failed(e.to_string()))?;
     pairs.truncate(count + 1);
     Ok(pairs.into_iter().map(|p| (p.value, mass_normalised(p.vector, &assembly.mass))).collect())
 }
@@ -91,13 +87,9 @@ pub fn undamped_modes(
 
 /// The system without damping: D = Ω G, S = K.
 pub fn undamped(assembly: &Assembly, system: &LinearSystem) -> LinearSystem {
-    LinearSystem {
-        speed: system.speed,
-        mass: system.mass.clone(),
-        damping: SparseMatrix::sum(&[(system.speed, &assembly.gyroscopic)]),
-        modal: None,
-        stiffness: SparseMatrix::sum(&[(1.0, &system.stiffness), (-system.speed, &assembly.circulatory)]),
-    }
+    let damping = SparseMatrix::sum(&[(system.speed, &assembly.gyroscopic)]);
+    let stiffness = SparseMatrix::sum(&[(1.0, &system.stiffness), (-system.speed, &assembly.circulatory)]);
+    LinearSystem::with_matrices(assembly, system.speed, [damping, stiffness], None)
 }
 
 /// φ scaled to φᴴ M φ = 1.

@@ -9,7 +9,7 @@
 use crate::element::shaft_matrices::ConeRule;
 use crate::element::{Element, ElementMatrices, ShaftElement};
 use crate::model::Model;
-use rotordyn_linalg::{Complex64, SparseMatrix};
+use rotordyn_linalg::{Complex64, Triplets};
 use std::f64::consts::PI;
 
 /// Loads in one cross-section, complex amplitudes; real for static loads.
@@ -29,14 +29,20 @@ pub struct SectionLoad {
     pub torque: Complex64,
 }
 
-/// Matrices of one shaft element, for the loads at its ends.
-struct ElementForces {
-    mass: SparseMatrix,
-    damping: SparseMatrix,
-    gyroscopic: SparseMatrix,
-    stiffness: SparseMatrix,
-    circulatory: SparseMatrix,
+/// Entry (i, j) of the matrices of one shaft element, for the loads at its ends.
+#[derive(Clone, Copy, Default)]
+struct Entry {
+    i: usize,
+    j: usize,
+    mass: f64,
+    damping: f64,
+    gyroscopic: f64,
+    stiffness: f64,
+    circulatory: f64,
 }
+
+/// The entries of one shaft element that are not all zero.
+type ElementForces = Vec<Entry>;
 
 /// The shaft of a model, for the loads in its sections; empty for a rigid rotor.
 pub struct ShaftSections {
@@ -47,55 +53,49 @@ pub struct ShaftSections {
 impl ShaftSections {
     pub fn new(model: &Model) -> Self {
         let [alpha, beta] = model.damping.proportional;
-        let forces = |element: &dyn Element| {
+        let forces = |element: &dyn Element| -> ElementForces {
             let mut all = ElementMatrices::new(12, ConeRule::default());
             element.add_matrices(0, &mut all);
-            let [mass, stiffness, damping] = [all.mass.build(), all.stiffness.build(), all.damping.build()];
-            ElementForces {
-                damping: SparseMatrix::sum(&[(1.0, &damping), (alpha, &mass), (beta, &stiffness)]),
-                gyroscopic: all.gyroscopic.build(),
-                circulatory: all.circulatory.build(),
-                mass,
-                stiffness,
-            }
+            let [m, c, g] = [all.mass, all.damping, all.gyroscopic].map(Triplets::build);
+            let [k, h] = [all.stiffness, all.circulatory].map(Triplets::build);
+            let entries = (0..144).map(|at| {
+                let (i, j) = (at / 12, at % 12);
+                let (mass, stiffness) = (m.get(i, j), k.get(i, j));
+                let damping = c.get(i, j) + alpha * mass + beta * stiffness;
+                let (gyroscopic, circulatory) = (g.get(i, j), h.get(i, j));
+                Entry { i, j, mass, damping, gyroscopic, stiffness, circulatory }
+            });
+            let is_empty = |e: &Entry| {
+                [e.mass, e.damping, e.gyroscopic, e.stiffness, e.circulatory].iter().all(|v| *v == 0.0)
+            };
+            entries.filter(|entry| !is_empty(entry)).collect()
         };
         Self { elements: model.shaft.iter().map(|e| forces(e)).collect(), gravity: model.gravity }
     }
 
     /// Loads at both ends of every element, in the order of z, under gravity and displacements q of all DOFs \[m, rad\].
     pub fn at_rest(&self, q: &[f64]) -> Vec<SectionLoad> {
-        self.of(|element, nodes| {
-            let own = &q[6 * nodes..6 * nodes + 12];
-            let acceleration: [f64; 12] =
-                std::array::from_fn(|i| if i % 6 < 3 { self.gravity[i % 6] } else { 0.0 });
-            let (elastic, weight) = (element.stiffness.mul(own), element.mass.mul(&acceleration));
-            std::array::from_fn(|i| Complex64::new(elastic[i] - weight[i], 0.0))
+        let acceleration = |i: usize| if i % 6 < 3 { self.gravity[i % 6] } else { 0.0 };
+        self.of(|entry, first| {
+            (entry.stiffness * q[first + entry.j] - entry.mass * acceleration(entry.j)).into()
         })
     }
 
     /// Loads at both ends of every element at a steady speed Ω \[rad/s\], from synchronous amplitudes of all DOFs.
     pub fn at_speed(&self, q: &[Complex64], speed: f64) -> Vec<SectionLoad> {
-        self.of(|element, nodes| {
-            let own = &q[6 * nodes..6 * nodes + 12];
-            let [m, c, g, k, h] = [
-                &element.mass,
-                &element.damping,
-                &element.gyroscopic,
-                &element.stiffness,
-                &element.circulatory,
-            ]
-            .map(|matrix| matrix.mul_complex(own));
-            std::array::from_fn(|i| {
-                let damped = Complex64::new(0.0, speed) * (c[i] + g[i] * speed);
-                k[i] + h[i] * speed - m[i] * (speed * speed) + damped
-            })
+        self.of(|entry, first| {
+            let elastic = entry.stiffness + speed * entry.circulatory - speed * speed * entry.mass;
+            let damped = speed * (entry.damping + speed * entry.gyroscopic);
+            Complex64::new(elastic, damped) * q[first + entry.j]
         })
     }
 
-    /// Loads from the forces on the ends of every element.
-    fn of(&self, ends: impl Fn(&ElementForces, usize) -> [Complex64; 12]) -> Vec<SectionLoad> {
+    /// Loads from the forces on the ends of every element, the sums of what `force` gives for each entry and the first DOF
+    /// of the element.
+    fn of(&self, force: impl Fn(&Entry, usize) -> Complex64) -> Vec<SectionLoad> {
         let sections = |(k, element): (usize, &ElementForces)| {
-            let f = ends(element, k);
+            let mut f = [Complex64::default(); 12];
+            element.iter().for_each(|entry| f[entry.i] += force(entry, 6 * k));
             // The part before the element acts on its first end, the element itself on the part behind it.
             let section = |node: usize, f: &[Complex64], sign: f64| SectionLoad {
                 node,

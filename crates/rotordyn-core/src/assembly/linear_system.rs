@@ -2,7 +2,7 @@
 
 use super::{Assembly, ModalDamping, PhysicsError};
 use rotordyn_bearing::SiteTangent;
-use rotordyn_linalg::{Complex64, SparseMatrix, Triplets};
+use rotordyn_linalg::{BandLayout, Complex64, SparseMatrix, Triplets};
 use std::sync::Arc;
 
 /// M q̈ + D q̇ + S q = f at speed Ω, with D = C + Ω G and S = K + Ω K_c, bearings and belts included.
@@ -18,6 +18,8 @@ pub struct LinearSystem {
     pub modal: Option<Arc<ModalDamping>>,
     /// S = K + Ω K_c.
     pub stiffness: SparseMatrix,
+    /// Band layout of the matrices, modal damping included.
+    pub layout: Arc<BandLayout>,
 }
 
 impl LinearSystem {
@@ -38,22 +40,29 @@ impl LinearSystem {
             Some(modal) => Some(modal.clone()),
             None => ModalDamping::new(assembly, tangents)?.map(Arc::new),
         };
-        Ok(Self {
-            speed,
-            mass: assembly.mass.clone(),
-            damping: SparseMatrix::sum(&[
-                (1.0, &assembly.damping),
-                (1.0, &c.build()),
-                (speed, &assembly.gyroscopic),
-            ]),
-            modal,
-            stiffness: SparseMatrix::sum(&[
-                (1.0, &assembly.stiffness),
-                (1.0, &assembly.belt_stiffness),
-                (1.0, &k.build()),
-                (speed, &assembly.circulatory),
-            ]),
-        })
+        let damping =
+            SparseMatrix::sum(&[(1.0, &assembly.damping), (1.0, &c.build()), (speed, &assembly.gyroscopic)]);
+        let stiffness = SparseMatrix::sum(&[
+            (1.0, &assembly.stiffness),
+            (1.0, &assembly.belt_stiffness),
+            (1.0, &k.build()),
+            (speed, &assembly.circulatory),
+        ]);
+        Ok(Self::with_matrices(assembly, speed, [damping, stiffness], modal))
+    }
+
+    /// Equations with these matrices D (without modal damping) and S.
+    pub fn with_matrices(
+        assembly: &Assembly,
+        speed: f64,
+        [damping, stiffness]: [SparseMatrix; 2],
+        modal: Option<Arc<ModalDamping>>,
+    ) -> Self {
+        let mass = assembly.mass.clone();
+        let of_modal = modal.as_ref().map(|modal| &modal.stiffness);
+        let patterns: Vec<_> = [&mass, &damping, &stiffness].into_iter().chain(of_modal).collect();
+        let layout = assembly.layouts.layout(&patterns);
+        Self { speed, mass, damping, modal, stiffness, layout }
     }
 
     /// D with modal damping, dense where there is any.
@@ -71,11 +80,5 @@ impl LinearSystem {
             out.iter_mut().zip(modal.matrix.mul_complex(v)).for_each(|(o, m)| *o += m);
         }
         out
-    }
-
-    /// Matrices with the couplings between unknowns, those of modal damping included.
-    pub fn patterns(&self) -> Vec<&SparseMatrix> {
-        let modal = self.modal.as_ref().map(|modal| &modal.stiffness);
-        [Some(&self.mass), Some(&self.damping), Some(&self.stiffness), modal].into_iter().flatten().collect()
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn nearest_eigenpair(system: &LinearSystem, start: &Eigenpair) -> Opt
     let (value, mut shape) = start.clone();
     let largest = (0..shape.len()).max_by(|&i, &j| shape[i].norm_sqr().total_cmp(&shape[j].norm_sqr()))?;
     // The mode lies in one group of coupled unknowns.
-    let layout = BandLayout::new(&system.patterns()).restricted_to(&[largest]);
+    let layout = system.layout.restricted_to(&[largest]);
     let mut inside = vec![false; shape.len()];
     layout.groups().flatten().for_each(|&i| inside[i] = true);
     shape.iter_mut().zip(inside).filter(|(_, inside)| !inside).for_each(|(v, _)| *v = Complex64::default());

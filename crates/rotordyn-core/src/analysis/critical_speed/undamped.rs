@@ -7,7 +7,7 @@ use crate::analysis::mode_kind;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use nalgebra::{Cholesky, DMatrix};
 use rotordyn_linalg::inertia::negative_eigenvalues;
-use rotordyn_linalg::{BandLayout, Complex64, SparseMatrix, eigen};
+use rotordyn_linalg::{Complex64, SparseMatrix, eigen};
 
 /// Undamped critical speeds of order n up to a speed, solved directly: K q = Ω² (n² M − j n G) q.
 ///
@@ -23,7 +23,7 @@ pub fn undamped_critical_speeds(
 ) -> Result<Vec<CriticalSpeed>, PhysicsError> {
     let failed = |reason: String| PhysicsError::Eigen { speed_rpm: 0.0, reason };
     let gyroscopic = &assembly.gyroscopic;
-    let layout = BandLayout::new(&[&system.mass, &system.stiffness, gyroscopic]);
+    let layout = assembly.layouts.layout(&[&system.mass, &system.stiffness, gyroscopic]);
     let mut found = Vec::new();
     for group in layout.groups() {
         let dense = |a: &SparseMatrix| {

@@ -1,0 +1,225 @@
+//! Arnoldi iteration with the inverted operator (A − σ)⁻¹ of the quadratic eigenvalue problem.
+
+use super::Complex64;
+use super::coupled_group::{CoupledGroup, Factors};
+use super::dot::dot_in_sixteens;
+use super::eigen::{self, EigenError};
+use super::hessenberg;
+use super::refinement::{NEGLIGIBLE, PreciseResidual, refine, relative_size};
+use nalgebra::DMatrix;
+use pulp::Arch;
+
+/// Fraction of its length that a vector may lose in orthogonalisation before that is repeated (Daniel et al. 1976).
+const MAX_CANCELLATION: f64 = 0.5;
+
+/// Orthonormal basis of the Krylov space of (A − σ)⁻¹ over the states (q, v/σ), v = λ q.
+///
+/// The factor 1/σ balances the two halves of the wanted vectors.
+pub(super) struct Arnoldi<'a> {
+    group: &'a CoupledGroup,
+    lu: Factors<'a>,
+    /// Whether round-off of the direct solution would show.
+    refined: bool,
+    /// Block size: number of start vectors.
+    pub block: usize,
+    basis: Vec<Vec<f64>>,
+    /// Hessenberg matrix: column j is the image of basis vector j in the basis.
+    columns: Vec<Vec<f64>>,
+    /// Whether the space became invariant, so that it went on from another vector.
+    restarted: bool,
+    noise: PseudoRandom,
+}
+
+impl<'a> Arnoldi<'a> {
+    pub fn new(group: &'a CoupledGroup) -> Result<Self, EigenError> {
+        let lu = Factors::new(group)?;
+        let mut new = Self {
+            group,
+            lu,
+            refined: false,
+            block: if group.is_gyroscopic() { 1 } else { 2 },
+            basis: Vec::new(),
+            columns: Vec::new(),
+            restarted: false,
+            noise: PseudoRandom(0x9E37_79B9_7F4A_7C15),
+        };
+        new.refined = new.shows_round_off();
+        Ok(new)
+    }
+
+    /// Whether the direct solution under inertia of equal accelerations has errors that show.
+    fn shows_round_off(&self) -> bool {
+        let load = self.group.m.mul(&vec![1.0; self.group.order()]);
+        let mut x = load.clone();
+        self.lu.solve(&mut x);
+        relative_size(&self.correction(&load, &x), &x) > NEGLIGIBLE
+    }
+
+    /// (K + σ C + σ² M)⁻¹ (b − (K + σ C + σ² M) x).
+    fn correction(&self, b: &[f64], x: &[f64]) -> Vec<f64> {
+        let mut residual = PreciseResidual::of(b);
+        // Their sum is rounded, so that its rows no longer cancel for rigid-body motion.
+        residual.subtract(1.0, &self.group.k, x);
+        residual.subtract(self.group.shift, &self.group.damp, x);
+        let mut out = residual.values();
+        if let Some(dense) = &self.group.dense {
+            // Damping acts on what the motion is, not on small differences of it: its products need no more digits.
+            dense.mul_add(-self.group.shift, x, &mut out);
+        }
+        self.lu.solve(&mut out);
+        out
+    }
+
+    /// (A − σ)⁻¹ x.
+    pub fn apply(&self, x: &[f64]) -> Vec<f64> {
+        let (n, shift) = (self.group.order(), self.group.shift);
+        let (a, b) = x.split_at(n);
+        let mut q = vec![0.0; n];
+        self.group.m.mul_add(-shift, b, &mut q);
+        self.group.damp.mul_add(-1.0, a, &mut q);
+        if let Some(dense) = &self.group.dense {
+            dense.mul_add(-1.0, a, &mut q);
+        }
+        if self.refined {
+            let load = q.clone();
+            self.lu.solve(&mut q);
+            refine(&mut q, |q| self.correction(&load, q));
+        } else {
+            self.lu.solve(&mut q);
+        }
+        let v: Vec<f64> = q.iter().zip(a).map(|(q, a)| q + a / shift).collect();
+        q.extend(v);
+        q
+    }
+
+    /// Number of images in the basis.
+    pub fn size(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Continues to `size` images.
+    pub fn grow(&mut self, size: usize) {
+        while self.basis.len() < self.block {
+            let random: Vec<f64> = (0..2 * self.group.order()).map(|_| self.noise.next()).collect();
+            self.add_to_basis(self.apply(&random));
+        }
+        while self.columns.len() < size {
+            let image = self.apply(&self.basis[self.columns.len()]);
+            let column = self.add_to_basis(image);
+            self.columns.push(column);
+        }
+    }
+
+    /// Appends x, orthonormalised against the basis; returns its coordinates (the last is its remaining length).
+    fn add_to_basis(&mut self, mut x: Vec<f64>) -> Vec<f64> {
+        let mut h = vec![0.0; self.basis.len()];
+        let before = norm(&x);
+        let mut length = project_out(&mut x, &self.basis, &mut h);
+        if length < MAX_CANCELLATION * before {
+            // Twice is enough (Parlett & Kahan).
+            length = project_out(&mut x, &self.basis, &mut h);
+        }
+        if length > 1e-13 * before && length > 0.0 {
+            h.push(length);
+        } else {
+            // Invariant subspace (breakdown): continue with a random direction.
+            self.restarted = !self.columns.is_empty() || self.restarted;
+            h.push(0.0);
+            x = (0..x.len()).map(|_| self.noise.next()).collect();
+            for _ in 0..2 {
+                length = project_out(&mut x, &self.basis, &mut vec![0.0; h.len() - 1]);
+            }
+        }
+        x.iter_mut().for_each(|v| *v /= length);
+        self.basis.push(x);
+        h
+    }
+
+    /// Oscillatory Ritz pairs, lowest |λ| first.
+    pub fn ritz_pairs(&self) -> Result<Box<dyn Iterator<Item = Ritz> + '_>, EigenError> {
+        let (size, shift) = (self.columns.len(), self.group.shift);
+        let entry = |i: usize, j: usize| self.columns[j].get(i).copied().unwrap_or(0.0);
+        let h = DMatrix::from_fn(size, size, entry);
+        if self.block == 1 && !self.restarted {
+            let thetas = hessenberg::eigenvalues(&h)?.into_iter().filter(|theta| theta.im < 0.0);
+            // θ = 1/(λ − σ) has Im θ < 0 where Im λ > 0.
+            let mut values: Vec<(Complex64, Complex64)> = thetas.map(|t| (t.inv() + shift, t)).collect();
+            values.sort_by(|a, b| a.0.norm().total_cmp(&b.0.norm()).then(a.0.im.total_cmp(&b.0.im)));
+            let next = self.columns.last().and_then(|column| column.last()).copied().unwrap_or(0.0);
+            return Ok(Box::new(values.into_iter().map(move |(value, theta)| {
+                let vector = hessenberg::eigenvector(&h, theta);
+                let last = vector.last().map_or(0.0, |v| v.norm());
+                Ritz { value, residual: next * last / theta.norm(), vector }
+            })));
+        }
+        let rest = DMatrix::from_fn(self.basis.len() - size, size, |i, j| entry(size + i, j));
+        let mut ritz = Vec::new();
+        for (theta, y) in eigen::general_small(&h)?.into_iter().filter(|(theta, _)| theta.norm() > 0.0) {
+            let image =
+                |r: nalgebra::RowDVector<f64>| r.iter().zip(&y).map(|(h, y)| y * *h).sum::<Complex64>();
+            let left: f64 = rest.row_iter().map(|r| image(r.into_owned()).norm_sqr()).sum();
+            let length: f64 = y.iter().map(|v| v.norm_sqr()).sum();
+            // Of a conjugate pair the one with Im θ > 0 is given.
+            ritz.push(Ritz {
+                value: theta.conj().inv() + shift,
+                residual: (left / length).sqrt() / theta.norm(),
+                vector: y.into_iter().map(|v| v.conj()).collect(),
+            });
+        }
+        ritz.sort_by(|a, b| {
+            a.value.norm().total_cmp(&b.value.norm()).then(a.value.im.total_cmp(&b.value.im))
+        });
+        Ok(Box::new(ritz.into_iter()))
+    }
+
+    /// The first half (q) of the state vector with these coordinates in the basis.
+    pub fn expand(&self, y: &[Complex64]) -> Vec<Complex64> {
+        let mut q = vec![Complex64::default(); self.group.order()];
+        for (&y, b) in y.iter().zip(&self.basis) {
+            for (q, &b) in q.iter_mut().zip(b) {
+                *q += y * b;
+            }
+        }
+        q
+    }
+}
+
+/// An approximate eigenpair from the basis, Im λ > 0 of a conjugate pair.
+pub(super) struct Ritz {
+    pub value: Complex64,
+    /// Coordinates in the basis.
+    pub vector: Vec<Complex64>,
+    /// ‖A x − θ x‖ / |θ|.
+    pub residual: f64,
+}
+
+/// Takes the parts along the basis from x and adds them to h (classical Gram-Schmidt); what remains of the length.
+fn project_out(x: &mut [f64], basis: &[Vec<f64>], h: &mut [f64]) -> f64 {
+    // Compiled for the widest vectors; sums have one order on every processor.
+    Arch::new().dispatch(|| {
+        let parts: Vec<f64> = basis.iter().map(|b| dot_in_sixteens(b, x)).collect();
+        for (b, part) in basis.iter().zip(&parts) {
+            for (x, b) in x.iter_mut().zip(b) {
+                *x -= part * b;
+            }
+        }
+        h.iter_mut().zip(&parts).for_each(|(h, part)| *h += part);
+        dot_in_sixteens(x, x).sqrt()
+    })
+}
+
+fn norm(x: &[f64]) -> f64 {
+    dot_in_sixteens(x, x).sqrt()
+}
+
+/// Fixed pseudo-random numbers in (−1, 1) (xorshift64), for bitwise reproducible runs.
+struct PseudoRandom(u64);
+
+impl PseudoRandom {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
