@@ -61,6 +61,20 @@ pub const LINEAR: &[Case] = &[
         let fine = rotor.text().replace("modes = 6", "modes = 14");
         models(&fine, &replaced(&fine, "element_length = \"15 mm\"", "element_length = \"250 mm\""))
     }),
+    (Code::WhirlFrequency, || {
+        let of = |stiffness: &str| {
+            let mut described = machine("two_discs_soft");
+            for (_, _, keys) in &mut described.bearings {
+                *keys = format!(
+                    "model = \"linear\"\nwhirl_frequency = \"0, 10, 500 Hz\"\nk_xx = \"{stiffness} N/m\"\n\
+                     k_yy = \"{stiffness} N/m\"\nk_zz = \"1e7, 1e7, 1e7 N/m\"\n\
+                     c_xx = \"2000, 2000, 2000 N s/m\"\nc_yy = \"2000, 2000, 2000 N s/m\"\n"
+                );
+            }
+            described.text()
+        };
+        models(&of("1e7, 1e7, 1e7"), &of("1e7, 1e7, 3e7"))
+    }),
     (Code::CrossingUncertain, || {
         // The search finds every crossing of the machines tried here, also where tables scatter from row to row or a
         // frequency touches the line: the result is spoiled.

@@ -223,3 +223,62 @@ impl PseudoRandom {
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{SparseMatrix, Triplets};
+
+    /// M, C, K of a whirling chain of masses with springs, in two directions: gyroscopic coupling, damping of the springs and
+    /// its circulatory part.
+    fn chain(masses: usize, [stiffness, speed, damping, circulatory]: [f64; 4]) -> [SparseMatrix; 3] {
+        let n = 2 * masses;
+        let [mut m, mut c, mut k] = [(); 3].map(|()| Triplets::new(n, n));
+        for axis in 0..2 {
+            let sign = if axis == 0 { 1.0 } else { -1.0 };
+            for i in 0..masses {
+                let [own, other] = [2 * i + axis, 2 * i + 1 - axis];
+                m.add(own, own, if i == masses / 2 { 11.0 } else { 1.0 });
+                c.add(own, other, sign * 0.3 * speed);
+                let neighbours = [(i, 2.0), (i.wrapping_sub(1), -1.0), (i + 1, -1.0)];
+                for (j, part) in neighbours.into_iter().filter(|(j, _)| *j < masses) {
+                    k.add(own, 2 * j + axis, part * stiffness);
+                    c.add(own, 2 * j + axis, part * stiffness * damping);
+                    k.add(own, 2 * j + 1 - axis, part * sign * stiffness * circulatory);
+                }
+            }
+        }
+        [m, c, k].map(Triplets::build)
+    }
+
+    #[test]
+    fn the_lowest_ritz_value_is_an_eigenvalue_whatever_the_damping_and_speed() {
+        let mut random = PseudoRandom(12345);
+        for case in 0..400 {
+            let masses = 15 + case % 20;
+            let [speed, zeta, stiffness] = [(0.0, 3.0), (-7.0, 2.0), (6.0, 2.0)]
+                .map(|(mean, range)| 10f64.powf(mean + range * random.next()));
+            let damping = if case % 3 == 0 { 0.0 } else { zeta };
+            let circulatory = if case % 2 == 0 { 0.0 } else { damping * speed };
+            let matrices = chain(masses, [stiffness, speed, damping, circulatory]);
+            let [m, c, k] = [&matrices[0], &matrices[1], &matrices[2]];
+            let all: Vec<usize> = (0..2 * masses).collect();
+            let group = CoupledGroup::new([m, c, k], None, &all, 30.0);
+            let mut arnoldi = Arnoldi::new(&group).unwrap();
+            for size in [12, 18, 27, 44] {
+                arnoldi.grow(size);
+                arnoldi.ritz_pairs().unwrap_or_else(|e| panic!("case {case}, {size} vectors: {e}"));
+            }
+            let lowest = arnoldi.ritz_pairs().unwrap().find(|ritz| ritz.residual < 1e-3).unwrap();
+            assert!(lowest.residual < 1e-8, "case {case}: {:e}", lowest.residual);
+            // ‖(λ² M + λ C + K) φ‖ against the size of its terms.
+            let (lambda, shape) = (lowest.value, arnoldi.expand(&lowest.vector));
+            let [inertia, damper, spring] = [m, c, k].map(|a| a.mul_complex(&shape));
+            let size = spring.iter().map(|v| v.norm()).fold(0.0, f64::max);
+            for i in 0..shape.len() {
+                let rest = lambda * lambda * inertia[i] + lambda * damper[i] + spring[i];
+                assert!(rest.norm() < 1e-6 * size, "case {case}, row {i}: {rest} of {size}");
+            }
+        }
+    }
+}

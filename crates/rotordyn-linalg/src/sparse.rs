@@ -195,7 +195,8 @@ impl SparseMatrix {
     /// Σ factor × matrix over matrices of one size; entries that sum to exactly zero are dropped.
     pub fn sum(terms: &[(f64, &SparseMatrix)]) -> SparseMatrix {
         let (rows, cols) = terms.first().map_or((0, 0), |(_, a)| (a.rows(), a.cols()));
-        let terms: Vec<_> = terms.iter().filter(|(factor, _)| *factor != 0.0).collect();
+        let terms: Vec<&(f64, &SparseMatrix)> =
+            terms.iter().filter(|(factor, a)| *factor != 0.0 && !a.values.is_empty()).collect();
         let most = terms.iter().map(|(_, a)| a.values.len()).sum();
         let mut out = SparseMatrix {
             rows,
@@ -204,33 +205,41 @@ impl SparseMatrix {
             values: Vec::with_capacity(most),
         };
         out.start.push(0);
-        // Next entry of every term: the columns are merged, each sorted by rows.
-        let mut next = vec![0; terms.len()];
+        // Factor, rows and values of a column that are not taken yet.
+        let mut parts: Vec<(f64, &[usize], &[f64])> = Vec::with_capacity(terms.len());
         for j in 0..cols {
-            let row = |k: usize, at: usize| {
-                let matrix = terms[k].1;
-                if at < matrix.start[j + 1] { matrix.row_index[at] } else { rows }
-            };
-            loop {
-                let lowest = next.iter().enumerate().map(|(k, &at)| row(k, at)).min().unwrap_or(rows);
-                if lowest == rows {
-                    break;
-                }
+            parts.clear();
+            parts.extend(terms.iter().filter_map(|(factor, a)| {
+                let range = a.start[j]..a.start[j + 1];
+                (!range.is_empty()).then(|| (*factor, &a.row_index[range.clone()], &a.values[range]))
+            }));
+            // The columns are merged, each sorted by rows; the last one left is copied.
+            while parts.len() > 1 {
+                let lowest = parts.iter().map(|(_, rows, _)| rows[0]).min().unwrap_or(rows);
                 let mut sum = 0.0;
-                for (k, at) in next.iter_mut().enumerate() {
-                    if row(k, *at) == lowest {
-                        sum += terms[k].0 * terms[k].1.values[*at];
-                        *at += 1;
+                parts.retain_mut(|(factor, rows, values)| {
+                    if rows[0] == lowest {
+                        sum += *factor * values[0];
+                        (*rows, *values) = (&rows[1..], &values[1..]);
                     }
-                }
-                if sum != 0.0 {
-                    out.row_index.push(lowest);
-                    out.values.push(sum);
-                }
+                    !rows.is_empty()
+                });
+                out.push_entry(lowest, sum);
+            }
+            if let Some((factor, rows, values)) = parts.first() {
+                rows.iter().zip(*values).for_each(|(&i, v)| out.push_entry(i, factor * v));
             }
             out.start.push(out.values.len());
         }
         out
+    }
+
+    /// Adds an entry to the last column, unless it is zero.
+    fn push_entry(&mut self, row: usize, value: f64) {
+        if value != 0.0 {
+            self.row_index.push(row);
+            self.values.push(value);
+        }
     }
 
     /// Whether both matrices have entries at the same positions.

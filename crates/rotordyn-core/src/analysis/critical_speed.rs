@@ -16,7 +16,9 @@ pub use undamped::undamped_critical_speeds;
 
 use super::campbell::{Campbell, ModeValue, Tangents};
 use super::mode_kind::ModeKind;
-use crate::assembly::{Assembly, PhysicsError};
+use crate::analysis::modal::Mode;
+use crate::assembly::{Assembly, LinearSystem, PhysicsError};
+use rotordyn_linalg::Complex64;
 use search::{Search, Spectrum};
 
 /// Number of speeds of the search, both ends included.
@@ -55,6 +57,11 @@ pub fn crossings(
     let at =
         |(speed, modes): (&f64, &Vec<ModeValue>)| Spectrum::new(*speed, modes.iter().map(|m| m.eigenvalue));
     search.run(diagram.speeds.iter().zip(&diagram.all).map(at).collect(), orders)
+}
+
+/// λ of the mode of a system that continues a mode of a similar one; `None` if the iteration leaves it.
+pub fn continued_eigenvalue(system: &LinearSystem, mode: &Mode) -> Option<Complex64> {
+    refine::nearest_eigenpair(system, &(mode.eigenvalue, mode.shape.clone())).map(|(value, _)| value)
 }
 
 /// Whether a crossing can be excited by unbalance of an axisymmetric machine: forward, at order 1.

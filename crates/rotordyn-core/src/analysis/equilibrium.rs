@@ -149,8 +149,69 @@ pub fn equilibrium(
     cage: CageTreatment,
     start: Option<&[f64]>,
 ) -> Result<Equilibrium, PhysicsError> {
-    let n = assembly.dofs.len();
     let sites = Sites::new(model, speed, cage);
+    let Solution { q, reactions, iterations, residual } = solve(model, assembly, &sites, speed, start)?;
+    let bearings: Vec<BearingState> = (0..assembly.sites.len())
+        .map(|k| {
+            let displacement = assembly.sites[k].relative(&q);
+            let (element, rotation) = &sites.elements[k];
+            BearingState {
+                name: assembly.sites[k].name.clone(),
+                displacement,
+                force: reactions[k].force,
+                tangent: SiteTangent::from(&reactions[k]),
+                balls: element.contact_loads(&displacement, rotation),
+                largest_ball_load: largest_ball_load(element.as_ref(), &displacement, rotation),
+                preload: element.preload_state(speed),
+            }
+        })
+        .collect();
+    Ok(Equilibrium {
+        speed,
+        cage,
+        belts: belt_pulls(model, assembly, &q),
+        preloads: mounted_preloads(model, &sites.elements, &bearings, cage),
+        bearings,
+        q,
+        iterations,
+        residual,
+        shaft: Vec::new(),
+        support_forces: Vec::new(),
+    })
+}
+
+/// Tangents of all bearings in the [`equilibrium`] at a speed, in the order of the model.
+///
+/// # Errors
+/// As [`equilibrium`].
+pub fn equilibrium_tangents(
+    model: &Model,
+    assembly: &Assembly,
+    speed: f64,
+    cage: CageTreatment,
+    start: Option<&[f64]>,
+) -> Result<Vec<SiteTangent>, PhysicsError> {
+    let found = solve(model, assembly, &Sites::new(model, speed, cage), speed, start)?;
+    Ok(found.reactions.iter().map(SiteTangent::from).collect())
+}
+
+/// Displacements of an equilibrium, with the bearings' forces and tangents there.
+struct Solution {
+    q: Vec<f64>,
+    reactions: Vec<Reaction>,
+    iterations: usize,
+    residual: f64,
+}
+
+/// Newton's method of [`equilibrium`].
+fn solve(
+    model: &Model,
+    assembly: &Assembly,
+    sites: &Sites,
+    speed: f64,
+    start: Option<&[f64]>,
+) -> Result<Solution, PhysicsError> {
+    let n = assembly.dofs.len();
     let load = external_load(assembly);
     let external = max_abs(&load).max(1e-6);
     let layout = assembly.layouts.layout(&[&assembly.mass, &assembly.stiffness, &bearing_pattern(assembly)]);
@@ -253,33 +314,7 @@ pub fn equilibrium(
             iterations,
         });
     }
-    let bearings: Vec<BearingState> = (0..assembly.sites.len())
-        .map(|k| {
-            let displacement = assembly.sites[k].relative(&q);
-            let (element, rotation) = &sites.elements[k];
-            BearingState {
-                name: assembly.sites[k].name.clone(),
-                displacement,
-                force: reactions[k].force,
-                tangent: SiteTangent::from(&reactions[k]),
-                balls: element.contact_loads(&displacement, rotation),
-                largest_ball_load: largest_ball_load(element.as_ref(), &displacement, rotation),
-                preload: element.preload_state(speed),
-            }
-        })
-        .collect();
-    Ok(Equilibrium {
-        speed,
-        cage,
-        belts: belt_pulls(model, assembly, &q),
-        preloads: mounted_preloads(model, &sites.elements, &bearings, cage),
-        bearings,
-        q,
-        iterations,
-        residual: left,
-        shaft: Vec::new(),
-        support_forces: Vec::new(),
-    })
+    Ok(Solution { q, reactions, iterations, residual: left })
 }
 
 /// Gravity and constant loads.

@@ -53,4 +53,5 @@ pub mod torsional;
 pub mod unbalance;
 
 pub use modal::Mode;
+pub(crate) use mode::log_decrement;
 pub use mode_kind::{Energy, ModeKind};

@@ -52,7 +52,7 @@ impl Mode {
 }
 
 /// δ = −2π Re λ / Im λ.
-pub(super) fn log_decrement(eigenvalue: Complex64) -> f64 {
+pub(crate) fn log_decrement(eigenvalue: Complex64) -> f64 {
     -TAU * eigenvalue.re / eigenvalue.im
 }
 

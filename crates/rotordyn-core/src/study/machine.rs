@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::analysis::ball_inertia::{InertiaUse, ball_inertia, is_undecided, with_decisions};
 use crate::analysis::belt_pull::BeltPull;
-use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
+use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium, equilibrium_tangents};
 use crate::analysis::preload::{MountedPreload, with_mounted_preload};
 use crate::analysis::table_range::{check_tables, speed_range};
 use crate::analysis::{campbell, critical_speed, modal, stability};
@@ -106,14 +106,13 @@ impl Machine {
             return machine.tangents(speed, speed_dependent);
         }
         if speed_dependent && speed != 0.0 && self.bearings_depend_on_speed() {
-            let found = equilibrium(
+            return equilibrium_tangents(
                 &self.model,
                 &self.assembly,
                 speed,
                 CageTreatment::Averaged,
                 Some(&self.standstill_equilibrium.q),
-            )?;
-            return Ok(found.tangents());
+            );
         }
         let at_standstill = self.bearings.iter().zip(self.standstill_equilibrium.tangents());
         Ok(at_standstill.map(|(element, tangent)| element.tangent_at(speed, tangent)).collect())

@@ -164,6 +164,10 @@ codes! {
     MeshLimit, "mesh-limit", Caution,
         "A mode is shorter than the elements of the shaft can carry: fewer than four elements in half a wave.",
         "refine the shaft: more elements, shaft.max_element_length";
+    WhirlFrequency, "whirl-frequency", Caution,
+        "Modes take coefficients of a bearing over whirl frequency at the frequency of rotation; with those at its own \
+         frequency a mode is another.",
+        "use the values that the warning gives, or an FRF, which takes the coefficients at each of its frequencies";
     CrossingUncertain, "crossing-uncertain", Caution,
         "Critical speeds may be missing in a range where bearings change faster with speed than the search follows.",
         "compute a Campbell diagram with more speeds there";

@@ -7,6 +7,7 @@ mod run;
 mod spectrogram;
 mod supports;
 mod tables;
+mod whirl;
 
 pub use run::run_up as run_up_warnings;
 pub(super) use supports::standstill_and_top;
@@ -30,6 +31,7 @@ impl Machine {
         found.extend(supports::ball_inertia(results));
         found.extend(modes::warnings(results));
         found.extend(self.mesh_warnings(results));
+        found.extend(self.whirl_frequency_warnings(results));
         found.extend(self.unstable_mode_warnings(results).unwrap_or_else(|error| {
             let text = format!("the stability of the modes is not checked: {error}");
             vec![Warning::new(Code::NotChecked, "", text)]
