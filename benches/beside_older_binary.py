@@ -17,6 +17,7 @@ from pathlib import Path
 
 MODELS = Path(__file__).resolve().parent.parent / "models"
 RIG = str(MODELS / "overhung_rig.toml")
+ROTOR = str(Path(__file__).resolve().parent / "rotor_40.toml")
 RUN_UP = ["--no-figures", "-q", "--threads", "1"]
 COMMANDS = {
     "run-up": ["run-up", RIG, *RUN_UP],
@@ -26,6 +27,11 @@ COMMANDS = {
     "run, no figures": ["run", RIG, "-q", "--no-figures"],
     "campbell": ["campbell", RIG, "--no-figures", "-q"],
     "critical": ["critical", RIG, "--no-figures", "-q"],
+    "unbalance": ["unbalance", RIG, "--no-figures", "-q"],
+    "campbell, 40 elements": ["campbell", ROTOR, "--no-figures", "-q"],
+    "critical, 40 elements": ["critical", ROTOR, "--no-figures", "-q"],
+    "unbalance, 40 elements": ["unbalance", ROTOR, "--no-figures", "-q"],
+    "frf, 40 elements": ["frf", ROTOR, "--no-figures", "-q"],
     "modal": ["modal", RIG, "--no-figures", "-q"],
     "modal with figures": ["modal", RIG, "-q"],
 }
