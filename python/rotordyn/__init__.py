@@ -20,9 +20,12 @@ import json as _json
 import os as _os
 import sys as _sys
 import sysconfig as _sysconfig
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _native, signal
+from ._ross import from_ross
+from ._values import words as _words
+from .analysis import Analysis, BearingAnalysis, Identified, Measurement, Updated, identify, update
 from .errors import Error, FileError, InputError, InternalError, PhysicsError, RotordynWarning
 from .figure import Figure
 from .model import Bearing, Matrices, Model, load
@@ -41,36 +44,96 @@ from .results import (
 from .runs import Orders, RunUp, Spectrograms
 from .tree import Group, Table
 
+if TYPE_CHECKING:
+    from .parts import (
+        BallBearing,
+        Belt,
+        Body,
+        Bushing,
+        Damping,
+        Disc,
+        Drive,
+        FreeBallBearing,
+        Housing,
+        Joint,
+        Layer,
+        LinearBearing,
+        Load,
+        Lubricant,
+        Material,
+        Part,
+        Probe,
+        RadialBallBearing,
+        RigidRotor,
+        Section,
+        Sensor,
+        Shaft,
+        ShaftUnbalance,
+        SpeedProfile,
+    )
+
 __all__ = [
+    "Analysis",
+    "BallBearing",
     "Bearing",
+    "BearingAnalysis",
+    "Belt",
+    "Body",
+    "Bushing",
     "Campbell",
     "Critical",
     "CriticalMap",
+    "Damping",
+    "Disc",
+    "Drive",
     "Error",
-    "FileError",
     "Figure",
+    "FileError",
+    "FreeBallBearing",
     "Frf",
     "Group",
+    "Housing",
+    "Identified",
     "InputError",
     "InternalError",
+    "Joint",
+    "Layer",
+    "LinearBearing",
+    "Load",
+    "Lubricant",
+    "Material",
     "Matrices",
+    "Measurement",
     "Modal",
     "Model",
     "Orders",
+    "Part",
     "PhysicsError",
+    "Probe",
+    "RadialBallBearing",
     "Result",
+    "RigidRotor",
     "RotordynWarning",
     "RunUp",
+    "Section",
+    "Sensor",
+    "Shaft",
+    "ShaftUnbalance",
     "Spectrograms",
+    "SpeedProfile",
     "Static",
     "Table",
     "Torsional",
     "Unbalance",
+    "Updated",
     "catalogue",
+    "from_ross",
+    "identify",
     "load",
     "map",
     "set_threads",
     "signal",
+    "update",
 ]
 
 __version__: str = _native.version()
@@ -83,12 +146,26 @@ def catalogue(designation: str) -> dict[str, Any]:
     """
     if not isinstance(designation, str) or not designation.strip():
         raise InputError(f'a designation is a text such as "6205", not {designation!r}')
-    found: list[dict[str, Any]] = _json.loads(_native.catalogue(designation.strip()))
+    found: list[dict[str, Any]] = _json.loads(_native.catalogue(_words(designation.strip())))
     if len(found) > 1:
         known = [sheet["designation"] for sheet in found]
         shown = ", ".join(known[:12]) + (" ..." if len(known) > 12 else "")
         raise InputError(f"{designation!r} is the beginning of {len(known)} designations: {shown}")
     return found[0]
+
+
+def __getattr__(name: str) -> Any:
+    """Parts of models, which are read when they are used first."""
+    if name == "parts" or name in __all__:
+        import importlib
+
+        found = importlib.import_module(".parts", __name__)
+        return found if name == "parts" else getattr(found, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
 
 
 def _find_program() -> str | None:

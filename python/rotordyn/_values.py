@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import math
+import os
 from typing import Any, Mapping
 
-from .errors import InputError
+import numpy as np
+import numpy.typing as npt
+
+from .errors import FileError, InputError
 
 __all__: list[str] = []
 
@@ -25,7 +29,7 @@ def toml(value: Any) -> str:
             return "nan"
         return repr(value)
     if isinstance(value, Mapping):
-        pairs = (f"{_quoted(_name(key))} = {toml(inner)}" for key, inner in value.items())
+        pairs = (f"{key_of(key)} = {toml(inner)}" for key, inner in value.items())
         return "{ " + ", ".join(pairs) + " }"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(toml(item) for item in value) + "]"
@@ -48,7 +52,9 @@ def words(value: Any) -> str:
 
 
 #: Flags without a value.
-SWITCHES = ("fixed_cage_angle",)
+SWITCHES = ("fixed_cage_angle", "cage_average", "skidding", "smooth_tacho")
+#: Flags of the command that say where its results go, or which model it reads.
+OF_COMMAND = ("csv", "json", "no_figures", "out", "quiet", "read_limit", "set", "strict", "threads", "variant", "write")
 
 
 def flags(given: Mapping[str, Any]) -> list[str]:
@@ -56,6 +62,8 @@ def flags(given: Mapping[str, Any]) -> list[str]:
     out = []
     for name, value in given.items():
         flag = "--" + name.replace("_", "-")
+        if name in OF_COMMAND:
+            raise InputError(f"{name} belongs to the command; here results are returned, and their save() writes them")
         if value is None:
             continue
         if name not in SWITCHES:
@@ -76,10 +84,12 @@ def path(text: Any) -> str:
     return _checked(text)
 
 
-def _name(key: Any) -> str:
-    if not isinstance(key, str):
-        raise InputError(f"keys of a model are texts, not {key!r}")
-    return key
+def key_of(key: Any) -> str:
+    """A key of a table, quoted if need be."""
+    if not isinstance(key, str) or not key:
+        raise InputError(f"names and keys of a model are texts, not {key!r}")
+    plain = key.isascii() and all(char.isalnum() or char in "_-" for char in key)
+    return key if plain else _quoted(key)
 
 
 def _quoted(text: str) -> str:
@@ -101,3 +111,41 @@ def _checked(text: str) -> str:
     except UnicodeEncodeError:
         raise InputError(f"{text!r} is not valid Unicode text") from None
     return text
+
+
+def file_path(what: str, given: Any) -> str:
+    """The path of a file or folder."""
+    if not isinstance(given, (str, os.PathLike)):
+        raise InputError(f"{what}: the path of a file, not {given!r}")
+    found = os.fspath(given)
+    if not isinstance(found, str):
+        raise InputError(f"{what}: the path of a file as text, not {found!r}")
+    try:
+        os.fsencode(found)
+    except UnicodeEncodeError:
+        raise InputError(f"{what}: {found!r} is no path of a file") from None
+    if "\0" in found:
+        raise InputError(f"{what}: {found!r} is no path of a file: it has a character of value zero")
+    return found
+
+
+def array(what: str, given: Any, kind: Any = np.float64) -> npt.NDArray[Any]:
+    """Numbers as an array without gaps; complex ones are refused where real ones are needed."""
+    try:
+        plain = np.asarray(given)
+        if kind is np.float64 and np.iscomplexobj(plain):
+            raise InputError(f"{what} is complex; give real numbers")
+        return np.ascontiguousarray(plain, dtype=kind)
+    except (TypeError, ValueError, OverflowError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"{what} is not an array of numbers: {error}") from None
+
+
+def write(path: str, content: bytes) -> None:
+    """Writes a file."""
+    try:
+        with open(path, "wb") as out:
+            out.write(content)
+    except OSError as error:
+        raise FileError(f"cannot write {path}: {error.strerror or error}") from None

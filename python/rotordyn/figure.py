@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from typing import Union
 
+from ._values import file_path, write
 from .errors import InputError
 
 __all__ = ["Figure"]
@@ -30,8 +31,7 @@ class Figure:
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the SVG document; the path ends in .svg."""
-        name = os.fspath(path)
+        name = file_path("save", path)
         if not name.lower().endswith(".svg"):
             raise InputError(f"figures are saved as SVG: {name!r} does not end in .svg")
-        with open(name, "w", encoding="utf-8") as out:
-            out.write(self.svg)
+        write(name, self.svg.encode())

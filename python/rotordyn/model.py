@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import Any, Callable, Iterator, Mapping, Sequence, TextIO, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterator, Mapping, Sequence, TextIO, TypeVar, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native
-from ._values import flags, path, toml, words
+from ._values import file_path, flags, path, toml, words, write
+from .analysis import BearingAnalysis
 from .errors import InputError, _warn
 from .results import (
     Campbell,
@@ -24,6 +25,9 @@ from .results import (
     Unbalance,
 )
 from .runs import RunUp
+
+if TYPE_CHECKING:
+    from ._part import Part
 
 __all__ = ["Bearing", "Matrices", "Model", "load"]
 
@@ -40,9 +44,7 @@ def load(path: Union[str, "os.PathLike[str]"], variant: str | None = None) -> Mo
     Raises :class:`rotordyn.InputError` with all problems of the file at once, :class:`rotordyn.FileError` if it cannot be
     read. Gives a :class:`rotordyn.RotordynWarning` for each warning of the file.
     """
-    if not isinstance(path, (str, os.PathLike)):
-        raise InputError(f"the path of a model file is a text or a path, not {path!r}")
-    return Model(_native.Source.read(os.fspath(path), _variant(variant)), _stacklevel=3)
+    return Model(_native.Source.read(file_path("load", path), _variant(variant)), _stacklevel=3)
 
 
 class Model:
@@ -76,7 +78,37 @@ class Model:
             data = text.encode()
         except UnicodeEncodeError as error:
             raise InputError(f"the model is not valid Unicode text: {error}") from None
-        return cls(_native.Source.of_text(data, name, os.fspath(folder), _variant(variant), []), _stacklevel=3)
+        return cls(_native.Source.of_text(data, words(name), file_path("folder", folder), _variant(variant), []), _stacklevel=3)
+
+    @classmethod
+    def build(
+        cls,
+        name: str,
+        *parts: Part,
+        stations: Mapping[str, str] | None = None,
+        title: str | None = None,
+        gravity: str | None = None,
+        study: Mapping[str, Any] | None = None,
+        folder: Union[str, "os.PathLike[str]"] = "",
+    ) -> Model:
+        """The model of parts made in code, such as :class:`rotordyn.Shaft` and :class:`rotordyn.Disc`.
+
+        ``stations``: places on the shaft by name, ``{"A": "0 mm"}``; ``study``: settings of studies,
+        ``{"modal": {"modes": 6}}``. The parts are written as a model file, which its reader validates: messages show the
+        lines of :meth:`to_toml`.
+        """
+        from ._part import written
+
+        text = written(name, parts, stations=stations, title=title, gravity=gravity, study=study)
+        return cls(_native.Source.of_text(text.encode(), f"model {name}", file_path("folder", folder), None, []), _stacklevel=3)
+
+    def _with_text(self, text: str) -> Model:
+        """The same changes and variant of another text."""
+        _, name, folder, variant, changes = self._native.parts
+        other = object.__new__(Model)
+        other._native = _native.Source.of_text(text.encode(), name, folder, variant, changes)
+        other._known = set(self._known)
+        return other
 
     def _tell(self, stacklevel: int) -> None:
         """Gives the warnings of the file that were not given yet."""
@@ -108,7 +140,7 @@ class Model:
         """The model with another variant of its file and the same changes; "base" is the file without variant."""
         if not isinstance(name, str):
             raise InputError(f"the name of a variant is a text, not {name!r}")
-        return Model(self._native.with_variant(name), _stacklevel=3)
+        return Model(self._native.with_variant(words(name)), _stacklevel=3)
 
     def copy(self) -> Model:
         """A model whose changes do not concern this one."""
@@ -165,8 +197,7 @@ class Model:
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes :meth:`to_toml` to a file."""
-        with open(os.fspath(path), "w", encoding="utf-8") as out:
-            out.write(self.to_toml())
+        write(file_path("save", path), self.to_toml().encode())
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Model) and self._native.parts == other._native.parts
@@ -257,7 +288,7 @@ class Model:
 
     def _study(self, kind: type[Found], command: str, given: dict[str, Any], keys: Mapping[str, Any]) -> Found:
         found = kind(_native.linear_study(self._native, [command, *flags(given)], _keys(command, keys)))
-        _warn_of(found, 4)
+        _warn_of(found, 3)
         return found
 
     def run_up(
@@ -282,7 +313,7 @@ class Model:
         finally:
             if shown is not None:
                 shown.close()
-        _warn_of(found, 3)
+        _warn_of(found, 2)
         return found
 
     def matrices(self, speed: Quantity = "0 rpm") -> Matrices:
@@ -295,10 +326,21 @@ class Model:
         """Names of the degrees of freedom of :meth:`matrices`: node and direction."""
         return self.matrices().dofs
 
+    def to_ross(self, speeds: Sequence[Quantity] = ("0 rpm",)) -> Any:
+        """The linear part of the machine as a ``ross.Rotor``; needs the package ross-rotordynamics.
+
+        Bearings have their coefficients at ``speeds``: contacts are linearised at their equilibrium at each. Nodes of ROSS
+        are those of the shaft, then one for each body. Each part that ROSS cannot have is a warning ``not-imported``: tilt
+        stiffness of bearings, rotations of housings, modal damping, unbalances and loads, which belong to its runs.
+        """
+        from ._ross import to_ross
+
+        return to_ross(self, speeds)
+
     def bearing(self, name: str) -> Bearing:
         """A bearing of the model."""
         known = self._native.bearings
-        if name not in known:
+        if not isinstance(name, str) or name not in known:
             from .tree import _unknown
 
             raise InputError(_unknown(name, known))
@@ -320,7 +362,7 @@ def _keys(command: str, keys: Mapping[str, Any]) -> list[tuple[str, str]]:
 def _variant(name: str | None) -> str | None:
     if name is not None and not isinstance(name, str):
         raise InputError(f"the name of a variant is a text, not {name!r}")
-    return None if name == "base" else name
+    return None if name is None or name == "base" else words(name)
 
 
 def _warn_of(found: Result, stacklevel: int) -> None:
@@ -363,8 +405,51 @@ class Bearing:
         """Force and moment on the shaft in the static equilibrium [N, N m], shape (6,)."""
         return np.asarray(self._at(speed)["force"], dtype=float)
 
-    def stiffness(self, speed: Quantity | None = None) -> Matrix:
-        """Tangent stiffness in the static equilibrium at a speed [N/m, N, N m/rad], shape (6, 6)."""
+    def analyse(
+        self,
+        load: Quantity | None = None,
+        moment: Quantity | None = None,
+        speed: Quantity | None = None,
+        constrain: Sequence[str] | None = None,
+        sweep: Sequence[str] = (),
+        along: str | None = None,
+        cage_average: bool = False,
+        **settings: Any,
+    ) -> BearingAnalysis:
+        """The ball bearing by itself, as the command ``rotordyn bearing``: loads of balls, stiffness, film, lives, sweeps.
+
+        ``load``: forces on it from the shaft, such as "0, -500, 100 N", by default those in the machine at rest;
+        ``moment``: "0, 1 N m"; ``constrain``: held motions such as ``["theta_x", "theta_y"]``; ``sweep`` such as
+        ``["load=0 N .. 2 kN", "speed"]``, ``along`` an axis. ``settings``: ``skidding`` and its loads and speeds.
+        """
+        given = {"load": load, "moment": moment, "speed": speed, "constrain": constrain or None, "along": along,
+                 "cage_average": cage_average, **settings}
+        return self._analysed(given, sweep, 3)
+
+    def _analysed(self, given: dict[str, Any], sweep: Any, stacklevel: int) -> BearingAnalysis:
+        sweeps = [sweep] if isinstance(sweep, str) else sweep
+        if not isinstance(sweeps, (list, tuple)):
+            raise InputError(f'sweep is a list such as ["load=0 N .. 2 kN"], not {sweep!r}')
+        if "motion" in given:
+            raise InputError("motion belongs to the command; here results are returned")
+        flags_ = [*flags({"bearing": self.name, **given}), *(f"--sweep={words(one)}" for one in sweeps)]
+        native = _native.bearings(self.model._native.parts, flags_)
+        all_texts, known = native.warnings
+        _warn(all_texts[known:], stacklevel)
+        return BearingAnalysis(native, self.name)
+
+    def stiffness(
+        self, speed: Quantity | None = None, load: Quantity | None = None, moment: Quantity | None = None
+    ) -> Matrix:
+        """Tangent stiffness [N/m, N, N m/rad], shape (6, 6), order u_x u_y u_z theta_x theta_y theta_z.
+
+        In the static equilibrium of the machine at a speed; with ``load`` such as "0, -500, 100 N" or ``moment`` of a ball
+        bearing under that load from the shaft, as :meth:`analyse`.
+        """
+        if load is not None or moment is not None:
+            out = np.zeros((6, 6))
+            out[:5, :5] = self._analysed({"load": load, "moment": moment, "speed": speed}, (), 3).stiffness
+            return out
         return np.asarray(self._at(speed)["stiffness"], dtype=float)
 
     def damping(self, speed: Quantity | None = None) -> Matrix:

@@ -9,6 +9,7 @@ from typing import Any, ClassVar, Iterator, Sequence, Union
 import numpy as np
 
 from . import _native, tree
+from ._values import file_path
 from .errors import Error, InputError, RotordynWarning
 from .figure import Figure
 from .tree import Array, Group, Table, _needed
@@ -94,7 +95,7 @@ class Result:
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes a results file (HDF5), as the command's ``results.h5``."""
-        self._native.save(os.fspath(path))
+        self._native.save(file_path("save", path))
 
     def _drawn(self) -> dict[str, str]:
         if self._figures is None:
@@ -112,17 +113,17 @@ class Result:
 
         ``backend="plotly"`` gives a plotly figure of the curves instead of the SVG; it needs the package plotly.
         """
+        if not isinstance(backend, str) or backend not in ("svg", "plotly"):
+            raise InputError(f'backend is "svg" or "plotly", not {backend!r}')
         if backend == "plotly":
             from . import _plotly
 
             return _plotly.figure(self, name)
-        if backend != "svg":
-            raise InputError(f'backend is "svg" or "plotly", not {backend!r}')
         drawn = self._drawn()
         if not drawn:
             raise InputError(f"there is no figure of {self.study}")
         wanted = next(iter(drawn)) if name is None else name
-        if wanted not in drawn:
+        if not isinstance(wanted, str) or wanted not in drawn:
             raise InputError(f"there is no figure {name!r}; there are: {', '.join(drawn)}")
         return Figure(wanted, drawn[wanted])
 
@@ -351,7 +352,7 @@ class Frf(Result):
         at = []
         for wanted, kind in zip(name, ("responses", "excitations")):
             known = list(self._group[kind])
-            if wanted not in known:
+            if not isinstance(wanted, str) or wanted not in known:
                 raise InputError(tree._unknown(wanted, known))
             at.append(known.index(wanted))
         return self._group["response"][at[0], at[1]]
@@ -390,7 +391,7 @@ class Unbalance(Result):
 
     def __getitem__(self, name: Any) -> Any:
         known = [str(found) for found in self._group["responses"]["name"]]
-        if name not in known:
+        if not isinstance(name, str) or name not in known:
             return super().__getitem__(name)
         row = self._group["responses"][known.index(name)]
         return row["re"] + 1j * row["im"]

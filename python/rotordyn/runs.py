@@ -121,7 +121,7 @@ class _PerChannel(Result):
         if isinstance(name, (int, np.integer)):
             return self._all[int(name)]
         known = [str(group["channel"]) for group in self._all]
-        if name not in known:
+        if not isinstance(name, str) or name not in known:
             raise InputError(tree._unknown(name, known))
         return self._all[known.index(name)]
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native, tree
-from ._values import flags, words
+from ._values import array, flags, words
 from .errors import InputError, RotordynWarning, _warn
 from .figure import Figure
 from .tree import Group
@@ -48,7 +48,7 @@ class Diagnosis:
         """A figure: that of the envelope if there is one, or one of ``figures`` by its name."""
         first = next((known for known in self._drawn if "envelope" in known), None)
         wanted = name if name is not None else first or next(iter(self._drawn), "")
-        if wanted not in self._drawn:
+        if not isinstance(wanted, str) or wanted not in self._drawn:
             raise InputError(f"there is no figure {wanted!r}; there are: {', '.join(self._drawn)}")
         return Figure(wanted, self._drawn[wanted])
 
@@ -82,18 +82,13 @@ def diagnose(
         given["bearing_orders"] = [f"{key}={words(value)}" for key, value in bearing.items()]
     elif bearing is not None:
         given["bearing"] = bearing
-    fields, document, drawn, warnings = _native.diagnose(samples, _rate(fs), unit, name, flags(given))
+    fields, document, drawn, warnings = _native.diagnose(samples, _rate(fs), words(unit), words(name), flags(given))
     _warn(warnings, 2)
     return Diagnosis(tree.of_fields(fields), document, drawn, warnings)
 
 
 def _record(x: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    if np.iscomplexobj(x):
-        raise InputError("the record is complex; give real samples")
-    try:
-        samples = np.ascontiguousarray(x, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"the record is not an array of real numbers: {error}") from None
+    samples = array("the record", x)
     if samples.ndim != 1:
         raise InputError(f"a record has one dimension, this array has the shape {samples.shape}: take one channel")
     if samples.size == 0:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from typing import Any, Iterator, Sequence, Union
 
 import numpy as np
@@ -83,7 +82,7 @@ class Group:
         return self._of(name).unit
 
     def _of(self, name: str) -> _Quantity:
-        found = self._found.get(name)
+        found = self._found.get(name) if isinstance(name, str) else None
         if found is None:
             raise KeyError(_unknown(name, list(self._found)))
         return found
@@ -226,18 +225,21 @@ def of_fields(fields: Sequence[Field]) -> Any:
 
 
 def _unknown(name: object, known: Sequence[str]) -> str:
+    import difflib
+
     near = difflib.get_close_matches(str(name), known, 1)
     hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(known)}"
     return f"there is no {name!r}; {hint}"
 
 
-def _needed(module: str) -> Any:
+def _needed(module: str, package: str = "") -> Any:
     import importlib
 
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        raise ImportError(f"this needs the package {module}: pip install {module}") from error
+        package = package or module
+        raise ImportError(f"this needs the package {package}: pip install {package}") from error
 
 
 def _plain(value: Any) -> Any:

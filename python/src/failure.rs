@@ -68,6 +68,10 @@ pub fn to_python(py: Python<'_>, stop: Stop) -> PyErr {
                 }
                 _ => failure.message(),
             };
+            let text = match &failure {
+                Failure::Model(_) => text,
+                _ => without_dashes(&text),
+            };
             (class, text.trim_end().to_string(), failure.to_json()["problems"].to_string())
         }
     };
@@ -98,4 +102,25 @@ pub fn in_words_of_python(mut errors: ModelErrors) -> ModelErrors {
         }
     }
     errors
+}
+
+/// Text with the flags of the command line as arguments: `--max-speed` becomes `max_speed`.
+fn without_dashes(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find("--") {
+        let (before, flag) = (&rest[..at], &rest[at + 2..]);
+        out += before;
+        let length = flag.bytes().take_while(|c| c.is_ascii_lowercase() || *c == b'-').count();
+        let word = flag[..length].trim_end_matches('-');
+        let starts = !before.ends_with(|c: char| c.is_alphanumeric() || c == '-');
+        if starts && word.starts_with(|c: char| c.is_ascii_lowercase()) {
+            out += &word.replace('-', "_");
+            rest = &flag[word.len()..];
+        } else {
+            out += "--";
+            rest = flag;
+        }
+    }
+    out + rest
 }

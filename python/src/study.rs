@@ -29,9 +29,10 @@ pub struct Prepared {
     pub results: Results,
 }
 
-/// A terminal that prints nothing.
+/// A terminal that prints nothing; it keeps the warnings.
 pub fn silent() -> Terminal {
-    Terminal::new(&Output { json: false, quiet: true, strict: false, threads: None, read_limit: None })
+    let output = Output { json: false, quiet: true, strict: false, threads: None, read_limit: None };
+    Terminal::new(&output).without_warnings()
 }
 
 /// The command of a study with its flags, such as `["modal", "--speed=1200 rpm"]`.

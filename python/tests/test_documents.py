@@ -15,6 +15,7 @@ from conftest import MODELS, ROOT
 @pytest.mark.parametrize("document", ["docs/src/python.md", "python/README.md"])
 def test_printed_code(document: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shutil.copytree(MODELS, tmp_path / "models")
+    shutil.copy(ROOT / "tests" / "data" / "ross" / "rotors" / "example_rotor.toml", tmp_path / "rotor.toml")
     monkeypatch.chdir(tmp_path)
     blocks = re.findall(r"^```python\n(.*?)^```", (ROOT / document).read_text(encoding="utf-8"), re.S | re.M)
     assert blocks

@@ -107,6 +107,11 @@ def test_warnings_of_the_file_are_given_once() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         model["disc.main.thickness"] = "30 mm"
+    model = load("jeffcott.toml")
+    del_axial = model.with_changes({"bearing.A.k_zz": "0 N/m"})
+    with pytest.warns(rd.RotordynWarning) as found:
+        del_axial.modal(speed="0 rpm")
+    assert all(Path(one.filename).name == "test_models.py" for one in found)
 
 
 def test_catalogue() -> None:

@@ -110,7 +110,7 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
 }
 
 /// All results, and whether none is missing because of Ctrl-C.
-fn compute(loaded: &LoadedBearings, terminal: &Terminal) -> Result<(Vec<BearingResult>, bool), Failure> {
+pub fn compute(loaded: &LoadedBearings, terminal: &Terminal) -> Result<(Vec<BearingResult>, bool), Failure> {
     let study = loaded.studies.bearing.clone().unwrap_or_default();
     let is_analysed =
         |name: &String| study.bearings.is_empty() || study.bearings.iter().any(|other| other == name);

@@ -5,15 +5,14 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use rotordyn::error::Error;
-use rotordyn::figures;
 use rotordyn::identify::operational::OperationalSettings;
 use rotordyn::identify::{ModalIdentification, Settings, identify, quantity_of};
 use rotordyn::io::hdf5::open_reader;
 use rotordyn::io::measured::impact_run;
 use rotordyn::io::measured::mapping::{self, Mapping};
 use rotordyn::io::measured::operating_run;
-use rotordyn::io::{identified_modes, json, machine_records, measured};
-use rotordyn::model::Quantity;
+use rotordyn::io::{json, machine_records, measured};
+use rotordyn::model::{Model, Quantity};
 use rotordyn::signal::impact::{self, Estimator, ImpactTest, ImpactWindows};
 use rotordyn::signal::record::{FrfMatrix, Kind, MeasuredData, Points, Record, RecordError};
 use rotordyn::units::{self, parse};
@@ -21,11 +20,9 @@ use rotordyn::warning::Code;
 use serde_json::json;
 
 use super::args::{EstimatorName, IdentifyArgs};
-use super::csv_files::write_csv;
 use super::failure::Failure;
 use super::folder_lock::FolderLock;
-use super::identified_file::write_results;
-use super::identify_tables::tables;
+use super::identified_file::{Identified, Modes};
 use super::limits::limits;
 use super::machine::ModelSource;
 use super::measured::range;
@@ -34,6 +31,34 @@ use super::terminal::Terminal;
 use super::{Outcome, print_written_files};
 
 pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
+    let start = Instant::now();
+    let found = compute(args, &Given::default(), terminal)?;
+    let seconds = start.elapsed().as_secs_f64();
+    found.print(terminal);
+    let folder = args.out.clone();
+    let folder = folder.unwrap_or_else(|| Path::new("out").join(format!("identify_{}", found.stem)));
+    let _lock = FolderLock::take(&folder, terminal)?;
+    let files = found.write(&folder, args.csv, !args.no_figures, terminal)?;
+    print_written_files(terminal, &folder, &files);
+    found.warnings.iter().for_each(|text| terminal.warn_of(Code::Identification, text.clone()));
+    let mut document = json::document(&found.section().content);
+    document["command"] = json!("identify");
+    document["seconds"] = json!({ "identify": seconds });
+    document["files"] = json!(files);
+    Ok(document.into())
+}
+
+/// What is in memory and takes the place of a file.
+#[derive(Clone, Debug, Default)]
+pub struct Given {
+    /// Content of the only file of `files`.
+    pub measured: Option<MeasuredData>,
+    /// The machine that defines the stations of the mapping.
+    pub model: Option<Model>,
+}
+
+/// Modes in the files; the warnings of reading are given, those about the modes are in the result.
+pub fn compute(args: &IdentifyArgs, given: &Given, terminal: &Terminal) -> Result<Identified, Failure> {
     let settings = settings(args)?;
     let test = ImpactTest {
         force: args.force.clone(),
@@ -45,10 +70,9 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
             EstimatorName::Hv => Estimator::Hv,
         },
     };
-    let start = Instant::now();
     let spinner = terminal.spinner("identify");
     let (mut warnings, mut left_out) = (Vec::new(), Vec::new());
-    let outcome = match read_measured(args, &test, &mut warnings, &mut left_out) {
+    let outcome = match read_measured(args, given, &test, &mut warnings, &mut left_out) {
         Ok(Measured::Responses { path, file, orders }) => {
             spinner.finish_and_clear();
             left_out.into_iter().for_each(|text| terminal.warn_of(Code::LeftOut, text));
@@ -59,35 +83,22 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
                 orders,
                 ..OperationalSettings::default()
             };
-            return operational::run(args, &path, file, settings, terminal);
+            return operational::compute(args, &path, file, settings, terminal);
         }
         Ok(Measured::Frfs(all, from_hits)) => identify_modes(args, all, from_hits, &settings, &mut warnings),
         Err(failure) => Err(failure),
     };
     spinner.finish_and_clear();
     left_out.into_iter().for_each(|text| terminal.warn_of(Code::LeftOut, text));
-    let (all, frfs, found) = match outcome {
+    let (measured, frfs, found) = match outcome {
         Ok(found) => found,
         Err(failure) => {
             warnings.into_iter().for_each(|warning| terminal.warn_of(Code::Identification, warning));
             return Err(failure);
         }
     };
-    let seconds = start.elapsed().as_secs_f64();
-    tables(terminal, &found, &frfs);
-
-    let name = super::measured::stem(&args.files[0]);
-    let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(format!("identify_{name}")));
-    let title = if all.title.is_empty() { name } else { all.title.clone() };
-    let _lock = FolderLock::take(&folder, terminal)?;
-    let files = write(args, terminal, &found, &frfs, &all, &title, &folder)?;
-    print_written_files(terminal, &folder, &files);
-    warnings.into_iter().for_each(|warning| terminal.warn_of(Code::Identification, warning));
-    let mut document = json::document(&identified_modes::section(&found).content);
-    document["command"] = json!("identify");
-    document["seconds"] = json!({ "identify": seconds });
-    document["files"] = json!(files);
-    Ok(document.into())
+    let stem = super::measured::stem(&args.files[0]);
+    Ok(Identified { stem, measured, modes: Modes::OfFrfs { frfs, found }, warnings })
 }
 
 /// FRF matrix of the files and its modes; warnings are also collected on failure.
@@ -154,31 +165,6 @@ fn with_file_name(path: &Path, error: Error) -> Failure {
     }
 }
 
-fn write(
-    args: &IdentifyArgs,
-    terminal: &Terminal,
-    found: &ModalIdentification,
-    frfs: &FrfMatrix,
-    all: &MeasuredData,
-    title: &str,
-    folder: &Path,
-) -> Result<Vec<PathBuf>, Failure> {
-    let section = identified_modes::section(found);
-    let path = write_results(folder, title, &section)?;
-    let shapes = folder.join("modes.uff");
-    measured::write(&shapes, &identified_modes::mode_shapes(found, &all.geometry))?;
-    let mut files = vec![path, shapes];
-    if args.csv {
-        files.extend(write_csv(folder, &[section])?);
-    }
-    if !args.no_figures {
-        let spinner = terminal.spinner("figures");
-        files.extend(figures::identification::draw(found, frfs, &all.geometry, title, folder)?);
-        spinner.finish_and_clear();
-    }
-    Ok(files)
-}
-
 /// Parses a positive quantity of a flag.
 fn parse_positive(
     name: &str,
@@ -228,17 +214,18 @@ enum Measured {
 /// Reads all files, converts time records of hits to FRFs.
 fn read_measured(
     args: &IdentifyArgs,
+    given: &Given,
     test: &ImpactTest,
     warnings: &mut Vec<String>,
     left_out: &mut Vec<String>,
 ) -> Result<Measured, Failure> {
     let mapping = args.mapping.as_ref().map(|path| mapping::read(path)).transpose()?;
     let model = match &args.model {
+        None => given.model.clone(),
         Some(path) => {
             let args = super::args::ModelArgs { model: path.clone(), variant: None, set: Vec::new() };
             Some(ModelSource::read(&args)?.load(&[])?.model)
         }
-        None => None,
     };
     let rate = parse_positive("--rate", args.rate.as_ref(), units::FREQUENCY)?;
     let names = RefCell::new(Vec::new());
@@ -268,7 +255,10 @@ fn read_measured(
                 (frfs, None)
             }
             Some(StoredRun::Operation(records, orders)) => (records, Some(orders)),
-            None => (measured::read_at_rate(path, limits(), rate)?, None),
+            None => match &given.measured {
+                Some(measured) => (measured.clone(), None),
+                None => (measured::read_at_rate(path, limits(), rate)?, None),
+            },
         };
         left_out.extend(file.left_out_text().map(|text| format!("{}: {text}", path.display())));
         let notes = std::mem::take(&mut file.notes);

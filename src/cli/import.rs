@@ -94,7 +94,7 @@ pub fn run(args: &ImportArgs, terminal: &Terminal) -> Result<Value, Failure> {
 }
 
 /// A name that a model may have: letters, digits, `_`, `-` and `.`.
-fn model_name(stem: &str) -> String {
+pub fn model_name(stem: &str) -> String {
     let plain: String = stem
         .chars()
         .map(|c| if c.is_alphanumeric() || matches!(c, '_' | '-' | '.') { c } else { '_' })

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use rotordyn::analysis::table_range::check_tables;
 use rotordyn::io::measured::test_data::{self, ReadSettings, TestData};
 use rotordyn::model::Model;
+use rotordyn::signal::record::MeasuredData;
 use rotordyn::units::{self, FREQUENCY, SPEED};
 use rotordyn::update::correlation::Correlation;
 use rotordyn::update::state::ModelState;
@@ -22,27 +23,39 @@ pub fn read(
     model: &Model,
     terminal: &Terminal,
 ) -> Result<Vec<Option<TestData>>, Failure> {
+    (0..args.measured.len()).map(|k| read_one(args, k, model, None, terminal)).collect()
+}
+
+/// Reads the measured file `k`, or takes what is in memory in its place, and maps it to the model; `None` without modes and
+/// FRFs.
+pub fn read_one(
+    args: &MeasuredArgs,
+    k: usize,
+    model: &Model,
+    given: Option<MeasuredData>,
+    terminal: &Terminal,
+) -> Result<Option<TestData>, Failure> {
     let band = args.band.as_deref().map(|text| range(text, "--band")).transpose()?;
     let speed = match &args.speed {
         Some(text) => Some(units::parse(text, SPEED).map_err(|e| Failure::Input(format!("--speed: {e}")))?),
         None => None,
     };
     let reading = ReadSettings { mapping: args.mapping.as_deref(), band, speed, limits: Some(limits()) };
-    let mut out = Vec::new();
-    for path in &args.measured {
-        let bar = terminal.spinner(&format!("reading {}", path.display()));
-        let found = test_data::read(path, &reading, model);
-        bar.finish_and_clear();
-        let found = found?;
-        for left_out in found.iter().filter_map(|found| found.left_out.as_ref()) {
-            terminal.warn_of(Code::LeftOut, format!("{}: {left_out}", path.display()));
-        }
-        for warning in found.iter().flat_map(|found| &found.warnings) {
-            terminal.warn_of(Code::MeasuredData, format!("{}: {warning}", path.display()));
-        }
-        out.push(found);
+    let path = &args.measured[k];
+    let bar = terminal.spinner(&format!("reading {}", path.display()));
+    let found = match given {
+        Some(measured) => test_data::of_measured(measured, &reading, model),
+        None => test_data::read(path, &reading, model),
+    };
+    bar.finish_and_clear();
+    let found = found?;
+    for left_out in found.iter().filter_map(|found| found.left_out.as_ref()) {
+        terminal.warn_of(Code::LeftOut, format!("{}: {left_out}", path.display()));
     }
-    Ok(out)
+    for warning in found.iter().flat_map(|found| &found.warnings) {
+        terminal.warn_of(Code::MeasuredData, format!("{}: {warning}", path.display()));
+    }
+    Ok(found)
 }
 
 /// Parses a frequency range: "10 Hz .. 300 Hz", "10 .. 300 Hz", or with a comma.

@@ -1,32 +1,22 @@
 //! `identify` of a record without a force: modes of a machine in operation.
 
-use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::path::Path;
 
 use rotordyn::error::Error;
-use rotordyn::figures;
-use rotordyn::identify::operational::{
-    OperationalModes, OperationalSettings, OutputRecord, Shaft, identify_operational,
-};
+use rotordyn::identify::operational::{OperationalSettings, OutputRecord, Shaft, identify_operational};
 use rotordyn::io::measured::run_up::{is_rotation_signal, quantity};
-use rotordyn::io::{json, measured, operational_modes};
 use rotordyn::signal::Quantity;
 use rotordyn::signal::record::{Dof, Kind, MeasuredData, Record};
 use rotordyn::study::signal::SignalChannel;
 use rotordyn::units::SPEED;
 use rotordyn::warning::Code;
-use serde_json::json;
 
 use super::args::IdentifyArgs;
-use super::csv_files::write_csv;
 use super::failure::Failure;
-use super::folder_lock::FolderLock;
-use super::identified_file::write_results;
-use super::operational_tables::tables;
+use super::identified_file::{Identified, Modes};
 use super::signal::input::{File, InputProblems};
 use super::signal::shaft_source::ShaftSource;
 use super::terminal::Terminal;
-use super::{Outcome, print_written_files};
 
 /// Whether a file holds responses only: time records in units of motion, none in N or named like a hammer.
 pub fn is_without_force(file: &MeasuredData) -> bool {
@@ -40,15 +30,14 @@ pub fn is_without_force(file: &MeasuredData) -> bool {
     vibrations.peek().is_some() && vibrations.all(moves)
 }
 
-/// Identifies the modes in the responses of one file, and writes and prints them.
-pub fn run(
+/// Modes in the responses of one file.
+pub fn compute(
     args: &IdentifyArgs,
     path: &Path,
     measured: MeasuredData,
     mut settings: OperationalSettings,
     terminal: &Terminal,
-) -> Result<Outcome, Failure> {
-    let start = Instant::now();
+) -> Result<Identified, Failure> {
     let stem = super::measured::stem(path);
     let file = File { path: path.into(), stem: stem.clone(), measured, stored_run: false };
     let mut findings = InputProblems::default();
@@ -75,20 +64,8 @@ pub fn run(
     findings.warnings.iter().for_each(|text| terminal.warn_of(Code::MeasuredData, text.clone()));
     let found =
         found.map_err(|error| Failure::Input(format!("{}: {}", path.display(), Error::from(error))))?;
-    let seconds = start.elapsed().as_secs_f64();
-    tables(terminal, &found);
-
-    let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(format!("identify_{stem}")));
-    let title = if file.measured.title.is_empty() { stem } else { file.measured.title.clone() };
-    let _lock = FolderLock::take(&folder, terminal)?;
-    let files = write(args, &found, &file.measured, &title, &folder, terminal)?;
-    print_written_files(terminal, &folder, &files);
-    found.warnings.iter().for_each(|text| terminal.warn_of(Code::Identification, text.clone()));
-    let mut document = json::document(&operational_modes::section(&found).content);
-    document["command"] = json!("identify");
-    document["seconds"] = json!({ "identify": seconds });
-    document["files"] = json!(files);
-    Ok(document.into())
+    let warnings = found.warnings.clone();
+    Ok(Identified { stem, measured: file.measured, modes: Modes::InOperation(found), warnings })
 }
 
 /// Orders of `--orders`, which need a shaft.
@@ -217,31 +194,4 @@ fn shaft_of(shaft: &ShaftSource, record: &mut OutputRecord, start: f64) -> Resul
     let covered = motion.first..motion.first + motion.angle.len();
     record.samples.iter_mut().for_each(|channel| *channel = channel[covered.clone()].to_vec());
     Ok(Shaft::Angle(motion.angle))
-}
-
-fn write(
-    args: &IdentifyArgs,
-    found: &OperationalModes,
-    file: &MeasuredData,
-    title: &str,
-    folder: &Path,
-    terminal: &Terminal,
-) -> Result<Vec<PathBuf>, Failure> {
-    let section = operational_modes::section(found);
-    let path = write_results(folder, title, &section)?;
-    let mut files = vec![path];
-    if !found.modes.is_empty() {
-        let shapes = folder.join("modes.uff");
-        measured::write(&shapes, &operational_modes::mode_shapes(found, &file.geometry))?;
-        files.push(shapes);
-    }
-    if args.csv {
-        files.extend(write_csv(folder, &[section])?);
-    }
-    if !args.no_figures {
-        let spinner = terminal.spinner("figures");
-        files.extend(figures::identification::draw_operational(found, &file.geometry, title, folder)?);
-        spinner.finish_and_clear();
-    }
-    Ok(files)
 }

@@ -156,7 +156,7 @@ pub fn mode_shapes(found: &[ModalResult], machine: &Machine) -> MeasuredData {
 }
 
 /// Points of shaft and bodies; lines along the shaft and from every bearing to its housing.
-fn geometry(model: &Model) -> Geometry {
+pub fn geometry(model: &Model) -> Geometry {
     let shaft = model.node_z.iter().map(|&z| [0.0, 0.0, z]);
     let places = shaft.chain(model.bodies.iter().map(|b| b.position));
     let nodes =

@@ -70,7 +70,7 @@ impl Machine {
             }
         }
         let machine = Self::new(model)?;
-        let machine = machine.decided(&[machine.top_speed_of_run()])?.unwrap_or(machine);
+        let machine = machine.decided(&[machine.top_speed_of_run()])?.unwrap_or_else(|| Arc::new(machine));
         let integrator = Integrator::GeneralisedAlpha { rho_infinity: RHO_INFINITY };
         let study = &RunUpStudy { integrator, ..study.clone() };
         let mut runs = Vec::new();

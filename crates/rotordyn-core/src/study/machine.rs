@@ -1,8 +1,10 @@
 //! A machine assembled from its model, and its linear and transient studies.
 
+use std::convert::Infallible;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use super::kept::Kept;
 use crate::analysis::ball_inertia::{InertiaUse, ball_inertia, is_undecided, with_decisions};
 use crate::analysis::belt_pull::BeltPull;
 use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium, equilibrium_tangents};
@@ -26,6 +28,14 @@ pub struct Machine {
     /// Equilibrium with cage-averaged bearings at standstill.
     pub(super) standstill_equilibrium: Equilibrium,
     bearings: Vec<Arc<dyn BearingElement>>,
+    /// The machine with its ball inertia decided, by the highest speed.
+    decided: Kept<Arc<Self>>,
+    /// Tangents about the equilibrium at a speed.
+    tangents: Kept<Vec<SiteTangent>>,
+    /// Ball inertia by the highest speed.
+    inertia: Kept<Vec<InertiaUse>>,
+    /// Motions that nothing constrains at a speed.
+    free_motions: Kept<Vec<String>>,
 }
 
 impl Machine {
@@ -41,22 +51,33 @@ impl Machine {
             .map_err(|error| name_rigid_body_mode(error, &model, &assembly))?;
         assembly.set_standstill(&base.tangents())?;
         let bearings = model.bearings.iter().map(|site| site.bearing.element()).collect();
-        Ok(Self { model, assembly, standstill_equilibrium: base, bearings })
+        Ok(Self {
+            model,
+            assembly,
+            standstill_equilibrium: base,
+            bearings,
+            decided: Kept::new(),
+            tangents: Kept::new(),
+            inertia: Kept::new(),
+            free_motions: Kept::new(),
+        })
     }
 
     /// Ball inertia of every ball bearing in a study of these speeds \[rad/s\], decided at the highest.
     pub fn ball_inertia(&self, speeds: &[f64]) -> Vec<InertiaUse> {
-        let top = speeds.iter().fold(0.0, |top: f64, speed| top.max(speed.abs()));
-        ball_inertia(&self.model, &self.assembly, top, Some(&self.standstill_equilibrium.q))
+        let (top, start) = (highest(speeds), Some(&self.standstill_equilibrium.q[..]));
+        let decide = || Ok::<_, Infallible>(ball_inertia(&self.model, &self.assembly, top, start));
+        self.inertia.at(top, decide).unwrap_or_else(|never| match never {})
     }
 
     /// The machine with its automatic ball inertia decided at the highest of a study's speeds \[rad/s\]; `None` if it
     /// is decided.
-    pub(super) fn decided(&self, speeds: &[f64]) -> Result<Option<Self>, PhysicsError> {
+    pub(super) fn decided(&self, speeds: &[f64]) -> Result<Option<Arc<Self>>, PhysicsError> {
         if !is_undecided(&self.model) {
             return Ok(None);
         }
-        Self::new(with_decisions(&self.model, &self.ball_inertia(speeds))).map(Some)
+        let decide = || Self::new(with_decisions(&self.model, &self.ball_inertia(speeds))).map(Arc::new);
+        self.decided.at(highest(speeds), decide).map(Some)
     }
 
     /// Highest speed of a run \[rad/s\]: of the speed profile, or of the torque table's last row.
@@ -106,13 +127,10 @@ impl Machine {
             return machine.tangents(speed, speed_dependent);
         }
         if speed_dependent && speed != 0.0 && self.bearings_depend_on_speed() {
-            return equilibrium_tangents(
-                &self.model,
-                &self.assembly,
-                speed,
-                CageTreatment::Averaged,
-                Some(&self.standstill_equilibrium.q),
-            );
+            let (averaged, start) = (CageTreatment::Averaged, Some(&self.standstill_equilibrium.q[..]));
+            return self
+                .tangents
+                .at(speed, || equilibrium_tangents(&self.model, &self.assembly, speed, averaged, start));
         }
         let at_standstill = self.bearings.iter().zip(self.standstill_equilibrium.tangents());
         Ok(at_standstill.map(|(element, tangent)| element.tangent_at(speed, tangent)).collect())
@@ -152,6 +170,14 @@ impl Machine {
         LinearSystem::new(&self.assembly, &tangents, speed).map(Some)
     }
 
+    /// Motions that nothing constrains at a speed, in words: rigid-body modes at 0 Hz.
+    ///
+    /// # Errors
+    /// As [`LinearSystem::new`].
+    pub(super) fn free_motions(&self, speed: f64) -> Result<Vec<String>, PhysicsError> {
+        self.free_motions.at(speed, || self.unconstrained_motions(&self.linear_system(speed)?))
+    }
+
     /// Motions that nothing constrains in a linear system, in words: rigid-body modes at 0 Hz.
     pub(super) fn unconstrained_motions(&self, system: &LinearSystem) -> Result<Vec<String>, PhysicsError> {
         let mut motions = rigid_body_modes::rigid_body_modes_of(&self.assembly, system)?;
@@ -179,7 +205,7 @@ impl Machine {
         let at = |&speed: &f64| {
             let system = self.linear_system(speed)?;
             let modes = modal::modes(&self.assembly, &system, study.modes)?;
-            Ok(ModalResult { speed, modes, rigid_body_modes: self.unconstrained_motions(&system)? })
+            Ok(ModalResult { speed, modes, rigid_body_modes: self.free_motions(speed)? })
         };
         study.speeds.iter().map(at).collect()
     }
@@ -343,6 +369,11 @@ impl Machine {
             })
             .collect()
     }
+}
+
+/// The highest of some speeds.
+fn highest(speeds: &[f64]) -> f64 {
+    speeds.iter().fold(0.0, |top: f64, speed| top.max(speed.abs()))
 }
 
 /// Length over thickness of a shaft that no machine has: a unit is wrong rather than a support missing.

@@ -13,6 +13,7 @@ mod ehl_film;
 mod error;
 pub mod forecast;
 pub mod free_ball;
+mod kept;
 mod machine;
 mod milestone;
 mod motion;

@@ -54,10 +54,22 @@ pub struct TestData {
 pub fn read(path: &Path, reading: &ReadSettings, model: &Model) -> Result<Option<TestData>, Error> {
     let usual = Limits::default();
     let limits = reading.limits.unwrap_or(&usual);
-    let mut measured = match from_results_file(path, limits)? {
+    let measured = match from_results_file(path, limits)? {
         Some(measured) => measured,
         None => measured::read_within(path, limits)?,
     };
+    of_measured(measured, reading, model)
+}
+
+/// Assigns modes or FRFs to points of the model; `None` without any.
+///
+/// # Errors
+/// A mapping or points that do not fit the model, no mode in the band.
+pub fn of_measured(
+    mut measured: MeasuredData,
+    reading: &ReadSettings,
+    model: &Model,
+) -> Result<Option<TestData>, Error> {
     let has_modes = measured.shapes.iter().any(is_mode);
     if !has_modes && !measured.records.iter().any(|r| r.kind == Kind::Frf) {
         return Ok(None);

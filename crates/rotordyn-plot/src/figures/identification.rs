@@ -28,6 +28,16 @@ pub fn draw(
     title: &str,
     folder: &Path,
 ) -> Result<Vec<PathBuf>, FigureError> {
+    write_plain(figures(found, frfs, geometry, title), folder)
+}
+
+/// All figures of an identification.
+pub fn figures(
+    found: &ModalIdentification,
+    frfs: &FrfMatrix,
+    geometry: &Geometry,
+    title: &str,
+) -> Vec<Named> {
     let selected: Vec<f64> = found.modes.iter().map(Mode::frequency_hz).collect();
     let mut figures = vec![stabilisation(
         &found.diagram,
@@ -51,7 +61,7 @@ pub fn draw(
         })
         .collect();
     figures.extend(shapes(&modes, geometry, title));
-    write_plain(figures, folder)
+    figures
 }
 
 /// Draws the figures of an output-only identification; returns the SVG files.
@@ -64,6 +74,11 @@ pub fn draw_operational(
     title: &str,
     folder: &Path,
 ) -> Result<Vec<PathBuf>, FigureError> {
+    write_plain(operational_figures(found, geometry, title), folder)
+}
+
+/// All figures of an output-only identification.
+pub fn operational_figures(found: &OperationalModes, geometry: &Geometry, title: &str) -> Vec<Named> {
     let selected: Vec<f64> = found.modes.iter().map(OperationalMode::frequency_hz).collect();
     let curves = found.spectrum.values.iter().map(|v| v.iter().map(|v| v.sqrt()).collect()).collect();
     let mut figures = vec![stabilisation(
@@ -88,7 +103,7 @@ pub fn draw_operational(
         })
         .collect();
     figures.extend(shapes(&modes, geometry, title));
-    write_plain(figures, folder)
+    figures
 }
 
 fn stabilisation(

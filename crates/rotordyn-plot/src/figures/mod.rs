@@ -313,7 +313,12 @@ pub fn draw_validation<'a>(
     stages: &[Stage],
     folder: impl Into<FigureFolder<'a>>,
 ) -> Result<Vec<PathBuf>, FigureError> {
-    write_plain(validation::figures(prefix, title, target, stages), folder)
+    write_plain(of_validation(prefix, title, target, stages), folder)
+}
+
+/// All figures of the comparison of a measurement with stages of a model; their names start with `prefix`.
+pub fn of_validation(prefix: &str, title: &str, target: &Target, stages: &[Stage]) -> Vec<Named> {
+    validation::figures(prefix, title, target, stages)
 }
 
 /// Draws the profiles of the parameters of an update; returns the SVG files.
@@ -327,7 +332,17 @@ pub fn draw_update_profiles<'a>(
     profiles: &[Profile],
     folder: impl Into<FigureFolder<'a>>,
 ) -> Result<Vec<PathBuf>, FigureError> {
-    write_plain(update_profile::figures(title, found, parameters, profiles), folder)
+    write_plain(of_update_profiles(title, found, parameters, profiles), folder)
+}
+
+/// The figures of the profiles of the parameters of an update.
+pub fn of_update_profiles(
+    title: &str,
+    found: &Update,
+    parameters: &[FreeParameter],
+    profiles: &[Profile],
+) -> Vec<Named> {
+    update_profile::figures(title, found, parameters, profiles)
 }
 
 /// Draws a measured and a computed run-up; file names start with `prefix`. Returns the SVG files.

@@ -42,17 +42,20 @@ impl Machine {
         if let Some(machine) = self.decided(speeds)? {
             return machine.free_motion_warnings(speeds);
         }
-        let held_with_closed_contacts = rigid_body_modes_of_machine(&self.model, &self.assembly)?;
         let mut found: Vec<(String, Vec<f64>)> = Vec::new();
         let compared = standstill_and_top(speeds);
         for &speed in &compared {
-            for motion in self.unconstrained_motions(&self.linear_system(speed)?)? {
+            for motion in self.free_motions(speed)? {
                 match found.iter_mut().find(|(name, _)| *name == motion) {
                     Some((_, at)) => at.push(speed),
                     None => found.push((motion, vec![speed])),
                 }
             }
         }
+        if found.is_empty() {
+            return Ok(Vec::new());
+        }
+        let held_with_closed_contacts = rigid_body_modes_of_machine(&self.model, &self.assembly)?;
         let warning = |(motion, at): &(String, Vec<f64>)| {
             let speeds = match at.as_slice() {
                 // Nothing that holds it depends on the speed.
