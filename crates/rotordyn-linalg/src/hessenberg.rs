@@ -309,8 +309,9 @@ mod tests {
     #[test]
     fn special_matrices() {
         // A companion matrix: the roots of x³ − 6 x² + 11 x − 6; a cycle, for which ordinary shifts fail; zeros.
-        let companion = DMatrix::from_row_slice(3, 3, &[6.0, -11.0, 6.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
-        let mut roots: Vec<f64> = eigenvalues(&companion).unwrap().iter().map(|v| v.re).collect();
+        let companion_matrix =
+            DMatrix::from_row_slice(3, 3, &[6.0, -11.0, 6.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+        let mut roots: Vec<f64> = eigenvalues(&companion_matrix).unwrap().iter().map(|v| v.re).collect();
         roots.sort_by(f64::total_cmp);
         assert!(roots.iter().zip([1.0, 2.0, 3.0]).all(|(a, b)| (a - b).abs() < 1e-13), "{roots:?}");
         let cycle = DMatrix::from_fn(6, 6, |i, j| f64::from(u8::from(i == (j + 1) % 6)));

@@ -35,7 +35,7 @@ pub struct Machine {
     /// Ball inertia by the highest speed.
     inertia: Kept<Vec<InertiaUse>>,
     /// Motions that nothing constrains at a speed.
-    free_motions: Kept<Vec<String>>,
+    rigid_body_motions: Kept<Vec<String>>,
 }
 
 impl Machine {
@@ -59,7 +59,7 @@ impl Machine {
             decided: Kept::new(),
             tangents: Kept::new(),
             inertia: Kept::new(),
-            free_motions: Kept::new(),
+            rigid_body_motions: Kept::new(),
         })
     }
 
@@ -174,8 +174,8 @@ impl Machine {
     ///
     /// # Errors
     /// As [`LinearSystem::new`].
-    pub(super) fn free_motions(&self, speed: f64) -> Result<Vec<String>, PhysicsError> {
-        self.free_motions.at(speed, || self.unconstrained_motions(&self.linear_system(speed)?))
+    pub(super) fn rigid_body_motions(&self, speed: f64) -> Result<Vec<String>, PhysicsError> {
+        self.rigid_body_motions.at(speed, || self.unconstrained_motions(&self.linear_system(speed)?))
     }
 
     /// Motions that nothing constrains in a linear system, in words: rigid-body modes at 0 Hz.
@@ -205,7 +205,7 @@ impl Machine {
         let at = |&speed: &f64| {
             let system = self.linear_system(speed)?;
             let modes = modal::modes(&self.assembly, &system, study.modes)?;
-            Ok(ModalResult { speed, modes, rigid_body_modes: self.free_motions(speed)? })
+            Ok(ModalResult { speed, modes, rigid_body_modes: self.rigid_body_motions(speed)? })
         };
         study.speeds.iter().map(at).collect()
     }

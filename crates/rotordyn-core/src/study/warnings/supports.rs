@@ -45,7 +45,7 @@ impl Machine {
         let mut found: Vec<(String, Vec<f64>)> = Vec::new();
         let compared = standstill_and_top(speeds);
         for &speed in &compared {
-            for motion in self.free_motions(speed)? {
+            for motion in self.rigid_body_motions(speed)? {
                 match found.iter_mut().find(|(name, _)| *name == motion) {
                     Some((_, at)) => at.push(speed),
                     None => found.push((motion, vec![speed])),
