@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native, tree
+from ._quantities import Quantities
 from ._values import array, file_path, flags, words, write
 from .errors import InputError, RotordynWarning, _warn
 from .figure import Figure
@@ -24,7 +25,7 @@ __all__ = ["Analysis", "BearingAnalysis", "Identified", "Measurement", "Updated"
 Path = Union[str, "os.PathLike[str]"]
 
 
-class Analysis:
+class Analysis(Quantities):
     """What an analysis found: its quantities are attributes, see :class:`rotordyn.Group`. It can be pickled."""
 
     def __init__(self, native: Any) -> None:
@@ -40,21 +41,6 @@ class Analysis:
         if self._content is None:
             self._content = self._read()
         return self._content
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        return getattr(self._group, name)
-
-    def __getitem__(self, name: Any) -> Any:
-        return self._group[name]
-
-    def __dir__(self) -> list[str]:
-        return sorted({*super().__dir__(), *dir(self._group)})
-
-    def keys(self) -> list[str]:
-        """Names of the quantities."""
-        return list(self._group.keys())
 
     def unit(self, name: str) -> str:
         """Unit of a quantity."""

@@ -9,6 +9,7 @@ from typing import Any, ClassVar, Iterator, Sequence, Union
 import numpy as np
 
 from . import _native, tree
+from ._quantities import Quantities
 from ._values import file_path
 from .errors import Error, InputError, RotordynWarning
 from .figure import Figure
@@ -27,7 +28,7 @@ __all__ = [
 ]
 
 
-class Result:
+class Result(Quantities):
     """What a study found: its quantities are attributes, see :class:`rotordyn.Group`.
 
     A result keeps what it needs of the model; the model may change or go afterwards. Results can be pickled.
@@ -49,21 +50,6 @@ class Result:
 
     def _read(self, found: Any) -> Any:
         return tree.of_fields(found)
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        return getattr(self._group, name)
-
-    def __getitem__(self, name: Any) -> Any:
-        return self._group[name]
-
-    def __dir__(self) -> list[str]:
-        return sorted({*super().__dir__(), *dir(self._group)})
-
-    def keys(self) -> list[str]:
-        """Names of the quantities."""
-        return list(self._group.keys())
 
     def unit(self, name: str) -> str:
         """Unit of a quantity."""

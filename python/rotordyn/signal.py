@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native, tree
+from ._quantities import Quantities
 from ._values import array, flags, words
 from .errors import InputError, RotordynWarning, _warn
 from .figure import Figure
@@ -17,27 +18,16 @@ from .tree import Group
 __all__ = ["Diagnosis", "diagnose"]
 
 
-class Diagnosis:
+class Diagnosis(Quantities):
     """Analyses of a record: ``statistics``, ``spectrum``, ``envelope``, ... as attributes, see :class:`rotordyn.Group`."""
 
     def __init__(self, content: Group, document: str, drawn: Sequence[tuple[str, str]], warnings: Sequence[Any]) -> None:
         self._content, self._document, self._drawn = content, document, dict(drawn)
         self.warnings = [RotordynWarning(*texts) for texts in warnings]
 
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        return getattr(self._content, name)
-
-    def __getitem__(self, name: str) -> Any:
-        return self._content[name]
-
-    def __dir__(self) -> list[str]:
-        return sorted({*super().__dir__(), *dir(self._content)})
-
-    def keys(self) -> list[str]:
-        """Names of the quantities."""
-        return self._content.keys()
+    @property
+    def _group(self) -> Group:
+        return self._content
 
     @property
     def figures(self) -> list[str]:

@@ -14,7 +14,7 @@ use rotordyn::warning::{Code, Warning};
 use crate::analysis::{Analysis, Found};
 use crate::cli::args::Command;
 use crate::cli::failure::Failure;
-use crate::cli::identify::{Given, compute};
+use crate::cli::identify::{InMemory, compute};
 use crate::failure::{Stop, detached, to_python};
 use crate::reading::use_default_limits;
 use crate::results::StudyResults;
@@ -176,14 +176,14 @@ pub fn identify(
         let terminal = silent();
         let mut data = measured.map(|measured| measured.data.clone());
         if let Some(data) = &mut data {
-            let silent = without_silent_responses(data);
-            if !silent.is_empty() {
-                let text = format!("responses that are zero at all frequencies: {}", silent.join(", "));
+            let zero = without_zero_responses(data);
+            if !zero.is_empty() {
+                let text = format!("responses that are zero at all frequencies: {}", zero.join(", "));
                 terminal.warn_of(Code::LeftOut, text);
             }
         }
-        let given = Given { measured: data, model: source.map(|source| source.loaded.model.clone()) };
-        let found = compute(&args, &given, &terminal)?;
+        let in_memory = InMemory { measured: data, model: source.map(|source| source.loaded.model.clone()) };
+        let found = compute(&args, &in_memory, &terminal)?;
         let mut warnings = terminal.warnings();
         let of_modes = found.warnings.iter();
         warnings.extend(of_modes.map(|text| Warning::new(Code::Identification, "", text.clone())));
@@ -192,15 +192,15 @@ pub fn identify(
 }
 
 /// Leaves out responses whose FRFs are all zero, such as those across the force in a symmetric machine; returns their names.
-fn without_silent_responses(data: &mut MeasuredData) -> Vec<String> {
+fn without_zero_responses(data: &mut MeasuredData) -> Vec<String> {
     let is_zero = |record: &Record| match &record.values {
         Values::Complex(values) => values.iter().all(|value| value.norm_sqr() == 0.0),
         Values::Real(_) => true,
     };
     let moving: Vec<Dof> =
         data.records.iter().filter(|record| !is_zero(record)).map(|record| record.response).collect();
-    let silent = |record: &Record| !moving.contains(&record.response);
-    let names = data.records.iter().filter(|record| record.kind == Kind::Frf && silent(record));
+    let left_out = |record: &Record| !moving.contains(&record.response);
+    let names = data.records.iter().filter(|record| record.kind == Kind::Frf && left_out(record));
     let names: Vec<String> = names.map(|record| record.name.clone()).collect();
     // Without any motion the message about it is that of the identification.
     if moving.is_empty() {

@@ -6,7 +6,7 @@ use crate::analysis::{Analysis, Found};
 use crate::cli::args::Command;
 use crate::cli::failure::Failure;
 use crate::cli::update::read;
-use crate::cli::update_fit::{Fit, Place};
+use crate::cli::update_fit::{Fit, UpdateContext};
 use crate::cli::{free_parameters, update_findings};
 use crate::failure::{Stop, detached};
 use crate::identify::Measured;
@@ -31,13 +31,13 @@ pub fn update(
         let parameters = free_parameters::parameters(&args, origin, &terminal)?;
         update_findings::check_profiles(&args.profile, &parameters)?;
         let folder = std::env::temp_dir();
-        let place = Place { origin, folder: &folder, terminal: &terminal };
-        let model = place.with_films(source.loaded.model.clone())?;
+        let context = UpdateContext { origin, folder: &folder, terminal: &terminal };
+        let model = context.with_films(source.loaded.model.clone())?;
         let given = measured.map(|measured| measured.data.clone());
         let read = read(&args, &model, given, &terminal)?;
-        let fit = Fit::new(&args, &place, model.title, parameters, read)?;
+        let fit = Fit::new(&args, &context, model.title, parameters, read)?;
         fit.pair_warnings(&terminal)?;
-        let findings = fit.findings(&place, &args.profile)?;
+        let findings = fit.findings(&context, &args.profile)?;
         update_findings::warn(&terminal, &fit.parameters, &fit.found, &findings);
         Ok(Analysis::new(Found::Update(Box::new((fit, findings))), &terminal.warnings(), 0))
     })

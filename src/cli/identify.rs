@@ -32,7 +32,7 @@ use super::{Outcome, print_written_files};
 
 pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let start = Instant::now();
-    let found = compute(args, &Given::default(), terminal)?;
+    let found = compute(args, &InMemory::default(), terminal)?;
     let seconds = start.elapsed().as_secs_f64();
     found.print(terminal);
     let folder = args.out.clone();
@@ -50,7 +50,7 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
 
 /// What is in memory and takes the place of a file.
 #[derive(Clone, Debug, Default)]
-pub struct Given {
+pub struct InMemory {
     /// Content of the only file of `files`.
     pub measured: Option<MeasuredData>,
     /// The machine that defines the stations of the mapping.
@@ -58,7 +58,11 @@ pub struct Given {
 }
 
 /// Modes in the files; the warnings of reading are given, those about the modes are in the result.
-pub fn compute(args: &IdentifyArgs, given: &Given, terminal: &Terminal) -> Result<Identified, Failure> {
+pub fn compute(
+    args: &IdentifyArgs,
+    in_memory: &InMemory,
+    terminal: &Terminal,
+) -> Result<Identified, Failure> {
     let settings = settings(args)?;
     let test = ImpactTest {
         force: args.force.clone(),
@@ -72,7 +76,7 @@ pub fn compute(args: &IdentifyArgs, given: &Given, terminal: &Terminal) -> Resul
     };
     let spinner = terminal.spinner("identify");
     let (mut warnings, mut left_out) = (Vec::new(), Vec::new());
-    let outcome = match read_measured(args, given, &test, &mut warnings, &mut left_out) {
+    let outcome = match read_measured(args, in_memory, &test, &mut warnings, &mut left_out) {
         Ok(Measured::Responses { path, file, orders }) => {
             spinner.finish_and_clear();
             left_out.into_iter().for_each(|text| terminal.warn_of(Code::LeftOut, text));
@@ -214,14 +218,14 @@ enum Measured {
 /// Reads all files, converts time records of hits to FRFs.
 fn read_measured(
     args: &IdentifyArgs,
-    given: &Given,
+    in_memory: &InMemory,
     test: &ImpactTest,
     warnings: &mut Vec<String>,
     left_out: &mut Vec<String>,
 ) -> Result<Measured, Failure> {
     let mapping = args.mapping.as_ref().map(|path| mapping::read(path)).transpose()?;
     let model = match &args.model {
-        None => given.model.clone(),
+        None => in_memory.model.clone(),
         Some(path) => {
             let args = super::args::ModelArgs { model: path.clone(), variant: None, set: Vec::new() };
             Some(ModelSource::read(&args)?.load(&[])?.model)
@@ -255,7 +259,7 @@ fn read_measured(
                 (frfs, None)
             }
             Some(StoredRun::Operation(records, orders)) => (records, Some(orders)),
-            None => match &given.measured {
+            None => match &in_memory.measured {
                 Some(measured) => (measured.clone(), None),
                 None => (measured::read_at_rate(path, limits(), rate)?, None),
             },

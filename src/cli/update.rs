@@ -15,7 +15,7 @@ use super::folder_lock::FolderLock;
 use super::machine::ModelSource;
 use super::measured::{self, folder};
 use super::terminal::Terminal;
-use super::update_fit::{Fit, Place};
+use super::update_fit::{Fit, UpdateContext};
 use super::{Outcome, free_parameters, print_model_warnings, print_written_files, update_findings};
 
 pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
@@ -30,14 +30,14 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     };
     let folder = folder(args.study.out.as_ref(), &name, "updated");
     let _lock = FolderLock::take(&folder, terminal)?;
-    let place = Place { origin: &origin, folder: &folder, terminal };
-    let model = place.with_films(loaded.model)?;
+    let context = UpdateContext { origin: &origin, folder: &folder, terminal };
+    let model = context.with_films(loaded.model)?;
     let read = read(args, &model, None, terminal)?;
     terminal.print(&format!("{}: {}", args.measured.measured[0].display(), read.source));
-    let fit = Fit::new(args, &place, model.title, parameters, read)?;
+    let fit = Fit::new(args, &context, model.title, parameters, read)?;
 
     fit.print(terminal)?;
-    let findings = fit.findings(&place, &args.profile)?;
+    let findings = fit.findings(&context, &args.profile)?;
     update_findings::print(terminal, &fit.parameters, &fit.found, &findings);
     update_findings::warn(terminal, &fit.parameters, &fit.found, &findings);
 

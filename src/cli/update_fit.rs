@@ -26,14 +26,14 @@ use super::terminal::{Terminal, number};
 use super::{ehl_films, update_findings};
 
 /// Where models with other values come from.
-pub struct Place<'a> {
+pub struct UpdateContext<'a> {
     pub origin: &'a ModelSource,
     /// Folder for fields of EHL films that do not converge.
     pub folder: &'a Path,
     pub terminal: &'a Terminal,
 }
 
-impl Place<'_> {
+impl UpdateContext<'_> {
     /// The model with its EHL film tables.
     pub fn with_films(&self, mut model: Model) -> Result<Model, Failure> {
         ehl_films::prepare_machine_films(&mut model, self.folder, self.terminal)?;
@@ -75,7 +75,7 @@ impl Fit {
     /// FRFs to be fitted that are not measured, or a model that fails on the way.
     pub fn new(
         args: &UpdateArgs,
-        place: &Place,
+        context: &UpdateContext,
         title: String,
         parameters: Vec<FreeParameter>,
         read: TestData,
@@ -92,12 +92,12 @@ impl Fit {
                     .into()
             }));
         }
-        let bar = place.terminal.spinner("updating");
+        let bar = context.terminal.spinner("updating");
         let found = update(&UpdateJob {
             parameters: &parameters,
             target: &read.target,
             fitting: &fitting,
-            load: &|set| place.load(set),
+            load: &|set| context.load(set),
             max_iterations: args.iterations,
         });
         bar.finish_and_clear();
@@ -108,15 +108,15 @@ impl Fit {
     }
 
     /// Groups of parameters, profiles of those named, and culprits if the model does not explain the data.
-    pub fn findings(&self, place: &Place, profile: &[String]) -> Result<Findings, Failure> {
+    pub fn findings(&self, context: &UpdateContext, profile: &[String]) -> Result<Findings, Failure> {
         let job = UpdateJob {
             parameters: &self.parameters,
             target: &self.read.target,
             fitting: &self.fitting,
-            load: &|set| place.load(set),
+            load: &|set| context.load(set),
             max_iterations: self.iterations,
         };
-        update_findings::findings(place.terminal, &job, &self.found, place.origin, profile)
+        update_findings::findings(context.terminal, &job, &self.found, context.origin, profile)
     }
 
     /// The measurement beside the model before and after.

@@ -14,7 +14,7 @@
 //! | [`eigen`] | dense eigenvalue problems, with workarounds for faer |
 //! | [`group_dense`] | symmetric matrices dense within groups of unknowns ([`GroupDense`]) |
 //! | `coupled_group`, `arnoldi` | the eigenvalue problem of one group, its Krylov space |
-//! | `known_layouts` | band layouts computed once for matrices of one sparsity ([`KnownLayouts`]) |
+//! | `layout_cache` | band layouts computed once for matrices of one sparsity ([`LayoutCache`]) |
 //! | [`krylov`] | lowest eigenvalues of λ² M + λ C + K (shift-and-invert Arnoldi) |
 //! | [`panel`] | dense matrix-vector products of a time step |
 //! | [`pchip`] | monotone cubic interpolation |
@@ -34,8 +34,8 @@ pub mod gmres;
 pub mod group_dense;
 pub mod hessenberg;
 pub mod inertia;
-mod known_layouts;
 pub mod krylov;
+mod layout_cache;
 pub mod panel;
 pub mod pchip;
 pub mod piecewise;
@@ -51,7 +51,7 @@ pub use dot::dot;
 pub use fft_length::fft_length;
 pub use gmres::gmres;
 pub use group_dense::GroupDense;
-pub use known_layouts::KnownLayouts;
+pub use layout_cache::LayoutCache;
 pub use piecewise::{Outside, piecewise, piecewise_within};
 pub use sparse::{SparseMatrix, SparseRow, Triplets};
 

@@ -8,7 +8,7 @@ use crate::element::Anchor;
 use crate::element::shaft_matrices::ConeRule;
 use crate::model::{Model, ShaftExtent};
 use rotordyn_bearing::Reaction;
-use rotordyn_linalg::{Complex64, KnownLayouts, SparseMatrix, SparseRow, dot};
+use rotordyn_linalg::{Complex64, LayoutCache, SparseMatrix, SparseRow, dot};
 use std::sync::Arc;
 
 /// Equations of motion over the free DOFs, without bearings.
@@ -55,7 +55,7 @@ pub struct Assembly {
     /// The shaft's mesh, for messages.
     pub extent: ShaftExtent,
     /// Band layouts of its linear systems.
-    pub layouts: KnownLayouts,
+    pub layouts: LayoutCache,
 }
 
 /// Bearing site: its six relative displacements as linear functions of q.
@@ -163,7 +163,7 @@ impl Assembly {
             modal: None,
             full_mass: full.mass,
             extent: ShaftExtent::of(model),
-            layouts: KnownLayouts::default(),
+            layouts: LayoutCache::default(),
             dofs,
         };
         check_mass(&assembly)?;

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::kept::Kept;
+use super::speed_cache::SpeedCache;
 use crate::analysis::ball_inertia::{InertiaUse, ball_inertia, is_undecided, with_decisions};
 use crate::analysis::belt_pull::BeltPull;
 use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium, equilibrium_tangents};
@@ -29,13 +29,13 @@ pub struct Machine {
     pub(super) standstill_equilibrium: Equilibrium,
     bearings: Vec<Arc<dyn BearingElement>>,
     /// The machine with its ball inertia decided, by the highest speed.
-    decided: Kept<Arc<Self>>,
+    decided: SpeedCache<Arc<Self>>,
     /// Tangents about the equilibrium at a speed.
-    tangents: Kept<Vec<SiteTangent>>,
+    tangents: SpeedCache<Vec<SiteTangent>>,
     /// Ball inertia by the highest speed.
-    inertia: Kept<Vec<InertiaUse>>,
+    inertia: SpeedCache<Vec<InertiaUse>>,
     /// Motions that nothing constrains at a speed.
-    rigid_body_motions: Kept<Vec<String>>,
+    rigid_body_motions: SpeedCache<Vec<String>>,
 }
 
 impl Machine {
@@ -56,10 +56,10 @@ impl Machine {
             assembly,
             standstill_equilibrium: base,
             bearings,
-            decided: Kept::new(),
-            tangents: Kept::new(),
-            inertia: Kept::new(),
-            rigid_body_motions: Kept::new(),
+            decided: SpeedCache::new(),
+            tangents: SpeedCache::new(),
+            inertia: SpeedCache::new(),
+            rigid_body_motions: SpeedCache::new(),
         })
     }
 

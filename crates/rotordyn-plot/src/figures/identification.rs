@@ -1,12 +1,9 @@
 //! Figures of an identification: stabilisation diagram, auto-MAC, synthesised FRFs, mode shapes.
 
-use std::path::{Path, PathBuf};
-
 use nalgebra::DMatrix;
 
+use super::Named;
 use super::display_unit::typographic_unit;
-use super::{Named, write_plain};
-use crate::FigureError;
 use crate::{Figure, Frf, FrfCurve, Matrix, PoleStability, Stabilisation, WireShape, Wireframe};
 use rotordyn_core::model::Quantity;
 use rotordyn_identify::operational::{OperationalMode, OperationalModes};
@@ -16,20 +13,6 @@ use rotordyn_signal::record::{Dof, FrfMatrix, Geometry};
 
 /// Number of FRFs drawn, evenly spread from the best to the worst fit.
 const MAX_FITS_DRAWN: usize = 6;
-
-/// Draws the figures of an identification; returns the SVG files.
-///
-/// # Errors
-/// A file cannot be written.
-pub fn draw(
-    found: &ModalIdentification,
-    frfs: &FrfMatrix,
-    geometry: &Geometry,
-    title: &str,
-    folder: &Path,
-) -> Result<Vec<PathBuf>, FigureError> {
-    write_plain(figures(found, frfs, geometry, title), folder)
-}
 
 /// All figures of an identification.
 pub fn figures(
@@ -62,19 +45,6 @@ pub fn figures(
         .collect();
     figures.extend(shapes(&modes, geometry, title));
     figures
-}
-
-/// Draws the figures of an output-only identification; returns the SVG files.
-///
-/// # Errors
-/// A file cannot be written.
-pub fn draw_operational(
-    found: &OperationalModes,
-    geometry: &Geometry,
-    title: &str,
-    folder: &Path,
-) -> Result<Vec<PathBuf>, FigureError> {
-    write_plain(operational_figures(found, geometry, title), folder)
 }
 
 /// All figures of an output-only identification.

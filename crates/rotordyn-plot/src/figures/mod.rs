@@ -321,20 +321,6 @@ pub fn of_validation(prefix: &str, title: &str, target: &Target, stages: &[Stage
     validation::figures(prefix, title, target, stages)
 }
 
-/// Draws the profiles of the parameters of an update; returns the SVG files.
-///
-/// # Errors
-/// A file cannot be written.
-pub fn draw_update_profiles<'a>(
-    title: &str,
-    found: &Update,
-    parameters: &[FreeParameter],
-    profiles: &[Profile],
-    folder: impl Into<FigureFolder<'a>>,
-) -> Result<Vec<PathBuf>, FigureError> {
-    write_plain(of_update_profiles(title, found, parameters, profiles), folder)
-}
-
 /// The figures of the profiles of the parameters of an update.
 pub fn of_update_profiles(
     title: &str,

@@ -22,29 +22,29 @@ impl Machine {
             return Vec::new();
         }
         let modal = results.modal.iter().flat_map(|at| at.modes.iter().map(|mode| (at.speed, mode)));
-        let branches = results.campbell.iter().flat_map(|found| {
-            let of = |speed: &f64, mode: &'_ Option<Mode>| mode.as_ref().map(|mode| (*speed, mode.clone()));
-            let diagram = &found.diagram;
-            diagram.branches.iter().flat_map(move |branch| {
-                diagram.speeds.iter().zip(&branch.modes).filter_map(move |(speed, mode)| of(speed, mode))
-            })
+        let diagrams = results.campbell.iter().map(|found| &found.diagram);
+        let branches = diagrams.flat_map(|diagram| {
+            let along = |modes| diagram.speeds.iter().copied().zip(modes);
+            diagram.branches.iter().flat_map(move |branch| along(&branch.modes))
         });
+        let branches = branches.filter_map(|(speed, mode)| Some((speed, mode.as_ref()?)));
         let crossings = results.critical.iter().flat_map(|found| &found.crossings.list);
-        [
-            self.largest_change("study.modal", modal.map(|(speed, mode)| (speed, mode.clone())).collect()),
-            self.largest_change("study.campbell", branches.collect()),
-            self.largest_change("study.critical", crossings.map(|c| (c.speed, c.mode.clone())).collect()),
-        ]
-        .into_iter()
-        .flatten()
-        .collect()
+        let found = [
+            self.largest_change("study.modal", modal),
+            self.largest_change("study.campbell", branches),
+            self.largest_change("study.critical", crossings.map(|found| (found.speed, &found.mode))),
+        ];
+        found.into_iter().flatten().collect()
     }
 
-    fn largest_change(&self, item: &str, modes: Vec<(f64, Mode)>) -> Option<Warning> {
-        let mut changed: Vec<(f64, f64, Mode, Complex64)> = modes
-            .into_iter()
+    fn largest_change<'m>(
+        &self,
+        item: &str,
+        modes: impl Iterator<Item = (f64, &'m Mode)>,
+    ) -> Option<Warning> {
+        let mut changed: Vec<(f64, f64, &Mode, Complex64)> = modes
             .filter_map(|(speed, mode)| {
-                let own = self.at_own_frequency(speed, &mode)?;
+                let own = self.at_own_frequency(speed, mode)?;
                 let change = (own - mode.eigenvalue).norm() / mode.natural_omega();
                 (change > SMALLEST_CHANGE).then_some((change, speed, mode, own))
             })

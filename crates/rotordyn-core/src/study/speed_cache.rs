@@ -3,21 +3,21 @@
 use std::fmt;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Values that are kept.
+/// Values in the cache.
 const MOST: usize = 8;
 
 /// The last values by speed \[rad/s\].
-pub(super) struct Kept<T>(Mutex<Vec<(f64, T)>>);
+pub(super) struct SpeedCache<T>(Mutex<Vec<(f64, T)>>);
 
-impl<T: Clone> Kept<T> {
+impl<T: Clone> SpeedCache<T> {
     pub fn new() -> Self {
         Self(Mutex::default())
     }
 
-    /// The value at a speed, computed if it is not kept.
+    /// The value at a speed, computed if it is not in the cache.
     ///
     /// # Errors
-    /// Those of the computation, which are not kept.
+    /// Those of the computation, which are not cached.
     pub fn at<E>(&self, speed: f64, compute: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
         if let Some((_, found)) = self.all().iter().find(|(at, _)| at.to_bits() == speed.to_bits()) {
             return Ok(found.clone());
@@ -36,9 +36,9 @@ impl<T: Clone> Kept<T> {
     }
 }
 
-impl<T> fmt::Debug for Kept<T> {
+impl<T> fmt::Debug for SpeedCache<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Kept")
+        f.write_str("SpeedCache")
     }
 }
 
@@ -48,10 +48,10 @@ mod tests {
 
     #[test]
     fn values_are_computed_once_and_the_oldest_is_dropped() {
-        let kept = Kept::new();
-        let ask = |speed: f64, value: usize| kept.at(speed, || Ok::<_, ()>(value)).unwrap();
+        let cache = SpeedCache::new();
+        let ask = |speed: f64, value: usize| cache.at(speed, || Ok::<_, ()>(value)).unwrap();
         assert_eq!([ask(1.0, 10), ask(1.0, 20), ask(0.0, 30), ask(-0.0, 40)], [10, 10, 30, 40]);
-        assert_eq!(kept.at(2.0, || Err(())), Err(()));
+        assert_eq!(cache.at(2.0, || Err(())), Err(()));
         assert_eq!(ask(2.0, 50), 50);
         for k in 3..3 + MOST {
             ask(k as f64, k);
