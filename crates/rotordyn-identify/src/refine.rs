@@ -102,6 +102,9 @@ impl GaussNewtonStep {
 
     /// A diagonal block of (JᵀJ)⁻¹.
     pub fn inverse_block(&self, first: usize, count: usize) -> DMatrix<f64> {
+        if count == 0 {
+            return DMatrix::zeros(0, 0);
+        }
         let mut square = self.normal_matrix.clone();
         // Regularised: repeated poles leave the rotation of their participations undetermined.
         (0..square.nrows()).for_each(|k| square[(k, k)] *= 1.0 + 1e-12);
@@ -154,9 +157,17 @@ impl<'a> Problem<'a> {
         self.data
     }
 
+    /// Sum of squares of the FRFs.
+    pub fn energy(&self) -> f64 {
+        self.y.norm_squared()
+    }
+
     /// Minimises the sum of squared residuals of the FRFs, in at most `steps` steps.
     pub fn refine(&self, poles: Vec<Pole>, steps: usize) -> FitPoint {
         let mut at = FitPoint::new(&self.basis, &self.y, poles);
+        if at.poles.iter().all(|pole| pole.held) {
+            return at;
+        }
         let least = ROUND_OFF * self.y.norm_squared();
         let mut damping = 1e-3;
         'steps: for _ in 0..steps {

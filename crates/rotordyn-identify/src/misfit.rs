@@ -1,0 +1,272 @@
+//! Error of the modal model in the standard errors of poles.
+//!
+//! The residuals of a model that fits hang together over the lines and are alike for all outputs; those of one that does
+//! not are correlated along a resonance, or say of every output another pole. Three sums show it, each of the change δ of a
+//! pole when a group of data is left out:
+//!
+//! * over the outputs: stiffness that varies from row to row, or a temperature that drifts;
+//! * over parts of the resonance, from skirt to skirt: a nonlinearity, an unknown neighbour, a wrong window;
+//! * the trend of the outputs' poles with the square of their motion: the mass of a sensor that is moved. The pole without
+//!   it is that of an output at rest, to which the trend is continued.
+//!
+//! Σ δ δᵀ of the first two is the variance in excess of noise if it is larger than by chance; with few groups the factor
+//! of Student's t for 95 % over that of a Gaussian makes ±1.96 standard errors a 95 % interval.
+//!
+//! Source: Bell & McCaffrey, Survey Methodology 28 (2002), on few groups and their degrees of freedom; Cameron, Gelbach &
+//! Miller, J. Business & Economic Statistics 29 (2011), on sums over groupings in several ways.
+
+use nalgebra::DMatrix;
+
+use super::data::Data;
+use super::dense::tr_mul;
+use super::refine::{FitPoint, GaussNewtonStep};
+use super::uncertainty::PoleCovariance;
+use rotordyn_linalg::Complex64;
+
+/// Ends of the parts of a resonance, in decay rates from the damped frequency.
+const PARTS: [f64; 5] = [-3.0, -1.0, 0.0, 1.0, 3.0];
+/// Least number of groups, in their effective number, for a variance between them.
+const MIN_GROUPS: f64 = 2.5;
+/// Largest share of a group in the information on a pole: more would extrapolate from what is left.
+const MAX_SHARE: f64 = 0.85;
+/// Student's t from which a trend of the outputs' poles with their motion is no chance.
+const MIN_TREND: f64 = 3.5;
+/// Quantile of the Gaussian for a two-sided 95 %.
+const GAUSSIAN: f64 = 1.959_964;
+
+/// Covariances of noise and of the model's error together.
+pub(super) fn with_model_error(
+    data: &Data,
+    at: &FitPoint,
+    step: &GaussNewtonStep,
+    noise: &[PoleCovariance],
+) -> Vec<PoleCovariance> {
+    let slope = tr_mul(&step.projected_jacobian, &at.residual);
+    let gram = tr_mul(&step.projected_jacobian, &step.projected_jacobian);
+    let modes: Vec<ModeGroups> = (0..at.poles.len()).map(|m| ModeGroups::new(data, at, step, m)).collect();
+    let trends: Vec<Option<Trend>> = modes.iter().map(|mode| mode.trend(data, &slope)).collect();
+    // The mass of a sensor lowers all modes: their trends count together.
+    let known: Vec<f64> = trends.iter().flatten().map(|trend| trend.t).collect();
+    let together = known.iter().sum::<f64>() / (known.len().max(1) as f64).sqrt();
+    modes
+        .iter()
+        .zip(noise)
+        .zip(&trends)
+        .map(|((mode, noise), trend)| {
+            let mut sum = *noise;
+            if mode.count == 0 {
+                return sum;
+            }
+            for groups in [mode.outputs(&slope, &gram), mode.parts(data)] {
+                let excess = groups.excess(noise);
+                sum.iter_mut().zip(excess).for_each(|(sum, excess)| *sum += excess);
+            }
+            if let Some(trend) = trend
+                && (trend.t.abs() > MIN_TREND || (together < -MIN_TREND && trend.t < 0.0))
+            {
+                sum[1] += 0.5 * trend.at_rest * trend.at_rest;
+            }
+            sum
+        })
+        .collect()
+}
+
+/// Groups of data of one mode.
+struct ModeGroups<'a> {
+    at: &'a FitPoint,
+    step: &'a GaussNewtonStep,
+    m: usize,
+    /// First parameter of the mode and their number, complex.
+    first: usize,
+    count: usize,
+    /// Block of (JᵀJ)⁻¹ of the mode.
+    inverse: DMatrix<f64>,
+    shape: Vec<Complex64>,
+}
+
+/// Sum of δ δᵀ over groups, and their effective number.
+struct GroupSum {
+    sum: PoleCovariance,
+    number: f64,
+}
+
+/// The pole of an output over the square of its motion.
+struct Trend {
+    /// Slope over its standard error.
+    t: f64,
+    /// Imaginary part of the pole of an output at rest, from that of the mode \[rad/s\].
+    at_rest: f64,
+}
+
+impl<'a> ModeGroups<'a> {
+    fn new(data: &Data, at: &'a FitPoint, step: &'a GaussNewtonStep, m: usize) -> Self {
+        let first = step.parameters.iter().position(|p| p.mode == m).unwrap_or(0);
+        let count = step.parameters.iter().filter(|p| p.mode == m).count();
+        let inverse = step.inverse_block(2 * first, 2 * count);
+        let shape = (0..data.outputs()).map(|o| at.shape(m, o)).collect();
+        Self { at, step, m, first, count, inverse, shape }
+    }
+
+    /// Jᵀe of one output.
+    fn gradient(&self, slope: &DMatrix<f64>, o: usize) -> DMatrix<f64> {
+        let mut gradient = DMatrix::zeros(2 * self.count, 1);
+        for a in 0..self.count {
+            let row = 2 * (self.first + a);
+            let g = self.shape[o].conj() * Complex64::new(slope[(row, o)], slope[(row + 1, o)]);
+            (gradient[2 * a], gradient[2 * a + 1]) = (g.re, g.im);
+        }
+        gradient
+    }
+
+    /// JᵀJ of the mode for products `[rr, ri, ii]` of the shape and of the derivatives.
+    fn information(&self, [rr, ri, ii]: [f64; 3], gram: &dyn Fn(usize, usize) -> f64) -> DMatrix<f64> {
+        let mut square = DMatrix::zeros(2 * self.count, 2 * self.count);
+        for a in 0..self.count {
+            for b in 0..self.count {
+                let g = |i: usize, j: usize| gram(2 * a + i, 2 * b + j);
+                square[(2 * a, 2 * b)] = rr * g(0, 0) + ri * (g(0, 1) + g(1, 0)) + ii * g(1, 1);
+                square[(2 * a, 2 * b + 1)] = rr * g(0, 1) + ri * (g(1, 1) - g(0, 0)) - ii * g(1, 0);
+                square[(2 * a + 1, 2 * b)] = rr * g(1, 0) + ri * (g(1, 1) - g(0, 0)) - ii * g(0, 1);
+                square[(2 * a + 1, 2 * b + 1)] = rr * g(1, 1) - ri * (g(1, 0) + g(0, 1)) + ii * g(0, 0);
+            }
+        }
+        square
+    }
+
+    /// Adds the change of the pole without a group: δ = B (I − G B)⁻¹ g.
+    fn add(&self, total: &mut Total, gradient: &DMatrix<f64>, information: &DMatrix<f64>) {
+        let size = 2 * self.count;
+        let mut share = information * &self.inverse;
+        let own = 0.5 * (share[(0, 0)] + share[(1, 1)]);
+        if own > MAX_SHARE {
+            share *= MAX_SHARE / own;
+        }
+        let left = DMatrix::identity(size, size) - share;
+        let gradient = left.lu().solve(gradient).unwrap_or_else(|| gradient.clone());
+        let change = self.inverse.rows(0, 2) * gradient;
+        let (re, im) = (change[0], change[1]);
+        total.sum.iter_mut().zip([re * re, im * im, re * im]).for_each(|(sum, own)| *sum += own);
+        total.shares += own;
+        total.squares += own * own;
+    }
+
+    /// Every output is a group.
+    fn outputs(&self, slope: &DMatrix<f64>, gram: &DMatrix<f64>) -> GroupSum {
+        let mut total = Total::default();
+        let place = 2 * self.first;
+        for (o, psi) in self.shape.iter().enumerate() {
+            let products = [psi.re * psi.re, psi.re * psi.im, psi.im * psi.im];
+            let information = self.information(products, &|i, j| gram[(place + i, place + j)]);
+            self.add(&mut total, &self.gradient(slope, o), &information);
+        }
+        total.groups()
+    }
+
+    /// The lines of a part of the resonance are a group, of all FRFs.
+    fn parts(&self, data: &Data) -> GroupSum {
+        let lines = data.lines();
+        let pole = self.at.poles[self.m].value;
+        let sum = |of: &dyn Fn(&Complex64) -> f64| self.shape.iter().map(of).sum::<f64>();
+        let products = [sum(&|p| p.re * p.re), sum(&|p| p.re * p.im), sum(&|p| p.im * p.im)];
+        let size = 2 * self.count;
+        let jacobian = |row: usize, k: usize| self.step.projected_jacobian[(row, 2 * self.first + k)];
+        let mut grams = vec![DMatrix::<f64>::zeros(size, size); PARTS.len() + 1];
+        let mut gradients = vec![DMatrix::<f64>::zeros(size, 1); PARTS.len() + 1];
+        for (k, hz) in data.frequencies.iter().enumerate() {
+            let offset = (std::f64::consts::TAU * hz - pole.im) / pole.re.abs();
+            let part = PARTS.iter().filter(|end| offset > **end).count();
+            for block in 0..2 * data.inputs() {
+                let row = block * lines + k;
+                let error: Complex64 =
+                    self.shape.iter().enumerate().map(|(o, p)| p.conj() * self.at.residual[(row, o)]).sum();
+                for a in 0..self.count {
+                    let g = Complex64::new(jacobian(row, 2 * a), jacobian(row, 2 * a + 1)) * error;
+                    gradients[part][2 * a] += g.re;
+                    gradients[part][2 * a + 1] += g.im;
+                }
+                for i in 0..size {
+                    for j in 0..size {
+                        grams[part][(i, j)] += jacobian(row, i) * jacobian(row, j);
+                    }
+                }
+            }
+        }
+        let mut total = Total::default();
+        for (gram, gradient) in grams.iter().zip(&gradients) {
+            let information = self.information(products, &|i, j| gram[(i, j)]);
+            self.add(&mut total, gradient, &information);
+        }
+        total.groups()
+    }
+
+    /// Trend of the outputs' poles with the square of their motion; `None` with too few outputs.
+    fn trend(&self, data: &Data, slope: &DMatrix<f64>) -> Option<Trend> {
+        if self.count == 0 {
+            return None;
+        }
+        let energy = self.shape.iter().map(|p| p.norm_sqr()).sum::<f64>();
+        let weights: Vec<f64> = self.shape.iter().map(|p| p.norm_sqr() / energy).collect();
+        let number = 1.0 / weights.iter().map(|w| w * w).sum::<f64>();
+        if number.is_nan() || number < 4.0 {
+            return None;
+        }
+        let motion: Vec<f64> =
+            self.shape.iter().zip(&data.output_scale).map(|(p, scale)| (p * *scale).norm_sqr()).collect();
+        let mean: f64 = weights.iter().zip(&motion).map(|(w, x)| w * x).sum();
+        let variance: f64 = weights.iter().zip(&motion).map(|(w, x)| w * (x - mean).powi(2)).sum();
+        // Poles of the outputs, each by itself: those of large motion alone determine the trend.
+        let shift: Vec<f64> =
+            (0..self.shape.len()).map(|o| (self.inverse.rows(1, 1) * self.gradient(slope, o))[0]).collect();
+        let product: f64 = shift.iter().zip(&motion).map(|(own, x)| own * (x - mean)).sum();
+        let trend = product / variance;
+        let rest: f64 = weights
+            .iter()
+            .zip(&shift)
+            .zip(&motion)
+            .filter(|((w, _), _)| **w > 0.0)
+            .map(|((w, own), x)| w * (own / w - trend * (x - mean)).powi(2))
+            .sum();
+        let error = (rest / (number - 2.0) / variance).sqrt();
+        (error > 0.0 && error.is_finite()).then(|| Trend { t: trend / error, at_rest: -trend * mean })
+    }
+}
+
+#[derive(Default)]
+struct Total {
+    sum: PoleCovariance,
+    shares: f64,
+    squares: f64,
+}
+
+impl Total {
+    fn groups(self) -> GroupSum {
+        let number = if self.squares > 0.0 { self.shares * self.shares / self.squares } else { 0.0 };
+        GroupSum { sum: self.sum, number }
+    }
+}
+
+impl GroupSum {
+    /// Variance in excess of noise, if it is larger than by chance.
+    fn excess(&self, noise: &PoleCovariance) -> PoleCovariance {
+        if self.number < MIN_GROUPS {
+            return [0.0; 3];
+        }
+        let freedom = (self.number - 1.0).max(1.5);
+        let wider = (student(freedom) / GAUSSIAN).powi(2);
+        let chance = 1.0 + (2.0 / freedom).sqrt();
+        let of =
+            |k: usize| if self.sum[k] > chance * noise[k] { wider * self.sum[k] - noise[k] } else { 0.0 };
+        let (re, im) = (of(0), of(1));
+        let both = if re > 0.0 && im > 0.0 { wider * self.sum[2] - noise[2] } else { 0.0 };
+        [re, im, both]
+    }
+}
+
+/// Student's t for a two-sided 95 %, by the expansion about the Gaussian (Abramowitz & Stegun 26.7.5).
+fn student(freedom: f64) -> f64 {
+    let z = GAUSSIAN;
+    let first = (z.powi(3) + z) / 4.0;
+    let second = (5.0 * z.powi(5) + 16.0 * z.powi(3) + 3.0 * z) / 96.0;
+    let third = (3.0 * z.powi(7) + 19.0 * z.powi(5) + 17.0 * z.powi(3) - 15.0 * z) / 384.0;
+    z + first / freedom + second / freedom.powi(2) + third / freedom.powi(3)
+}
