@@ -1,30 +1,34 @@
 //! Error of the modal model in the standard errors of poles.
 //!
-//! The residuals of a model that fits hang together over the lines and are alike for all outputs; those of one that does
-//! not are correlated along a resonance, or say of every output another pole. Three sums show it, each of the change δ of a
-//! pole when a group of data is left out:
+//! Three patterns of the residuals show it:
 //!
-//! * over the outputs: stiffness that varies from row to row, or a temperature that drifts;
-//! * over parts of the resonance, from skirt to skirt: a nonlinearity, an unknown neighbour, a wrong window;
-//! * the trend of the outputs' poles with the square of their motion: the mass of a sensor that is moved. The pole without
-//!   it is that of an output at rest, to which the trend is continued.
+//! * outputs that have different poles: stiffness that varies from row to row, or a temperature that drifts. The variance
+//!   is Σ δ δᵀ of the changes δ of the pole when an output is left out, if it exceeds that of noise by more than chance; with
+//!   few outputs the factor of Student's t for 95 % over that of a Gaussian makes ±1.96 standard errors a 95 % interval;
+//! * poles of the outputs that follow the square of their motion: the mass of a sensor that is moved. The pole without it
+//!   is that of an output at rest;
+//! * a pole that follows the square of the motion along the resonance, λ + κ|σ/(s − λ)|²: a nonlinearity. The pole of
+//!   the linear structure is that of no motion, λ + δ: δ and κ by linear least squares on the residuals.
 //!
-//! Σ δ δᵀ of the first two is the variance in excess of noise if it is larger than by chance; with few groups the factor
-//! of Student's t for 95 % over that of a Gaussian makes ±1.96 standard errors a 95 % interval.
+//! Half the square of the distance to the pole at rest joins the variance, so that the interval covers both.
 //!
 //! Source: Bell & McCaffrey, Survey Methodology 28 (2002), on few groups and their degrees of freedom; Cameron, Gelbach &
 //! Miller, J. Business & Economic Statistics 29 (2011), on sums over groupings in several ways.
 
+use std::f64::consts::TAU;
+
 use nalgebra::DMatrix;
 
 use super::data::Data;
-use super::dense::tr_mul;
-use super::refine::{FitPoint, GaussNewtonStep};
+use super::dense::{mul, tr_mul};
+use super::refine::{FitPoint, GaussNewtonStep, Problem};
 use super::uncertainty::PoleCovariance;
 use rotordyn_linalg::Complex64;
 
-/// Ends of the parts of a resonance, in decay rates from the damped frequency.
-const PARTS: [f64; 5] = [-3.0, -1.0, 0.0, 1.0, 3.0];
+/// F statistic from which a change of the pole along the resonance is no chance.
+const MIN_SIGNIFICANCE: f64 = 10.0;
+/// Share of the squared distance to the pole at rest in the variance.
+const AT_REST: f64 = 0.5;
 /// Least number of groups, in their effective number, for a variance between them.
 const MIN_GROUPS: f64 = 2.5;
 /// Largest share of a group in the information on a pole: more would extrapolate from what is left.
@@ -36,11 +40,11 @@ const GAUSSIAN: f64 = 1.959_964;
 
 /// Covariances of noise and of the model's error together.
 pub(super) fn with_model_error(
-    data: &Data,
+    problem: &Problem,
     at: &FitPoint,
-    step: &GaussNewtonStep,
     noise: &[PoleCovariance],
 ) -> Vec<PoleCovariance> {
+    let (data, step) = (problem.data(), &problem.step(at));
     let slope = tr_mul(&step.projected_jacobian, &at.residual);
     let gram = tr_mul(&step.projected_jacobian, &step.projected_jacobian);
     let modes: Vec<ModeGroups> = (0..at.poles.len()).map(|m| ModeGroups::new(data, at, step, m)).collect();
@@ -57,14 +61,16 @@ pub(super) fn with_model_error(
             if mode.count == 0 {
                 return sum;
             }
-            for groups in [mode.outputs(&slope, &gram), mode.parts(data)] {
-                let excess = groups.excess(noise);
-                sum.iter_mut().zip(excess).for_each(|(sum, excess)| *sum += excess);
-            }
+            let excess = mode.outputs(&slope, &gram).excess(noise);
+            sum.iter_mut().zip(excess).for_each(|(sum, excess)| *sum += excess);
             if let Some(trend) = trend
                 && (trend.t.abs() > MIN_TREND || (together < -MIN_TREND && trend.t < 0.0))
             {
-                sum[1] += 0.5 * trend.at_rest * trend.at_rest;
+                sum[1] += AT_REST * trend.at_rest * trend.at_rest;
+            }
+            if let Some(rest) = mode.linear_pole(problem) {
+                sum[0] += AT_REST * rest.re * rest.re;
+                sum[1] += AT_REST * rest.im * rest.im;
             }
             sum
         })
@@ -119,10 +125,21 @@ impl<'a> ModeGroups<'a> {
     }
 
     /// JᵀJ of the mode for products `[rr, ri, ii]` of the shape and of the derivatives.
-    fn information(&self, [rr, ri, ii]: [f64; 3], gram: &dyn Fn(usize, usize) -> f64) -> DMatrix<f64> {
-        let mut square = DMatrix::zeros(2 * self.count, 2 * self.count);
-        for a in 0..self.count {
-            for b in 0..self.count {
+    fn information(&self, products: [f64; 3], gram: &dyn Fn(usize, usize) -> f64) -> DMatrix<f64> {
+        self.information_of(self.count, self.count, products, gram)
+    }
+
+    /// The same between complex parameters of two kinds, `rows` and `columns` of them.
+    fn information_of(
+        &self,
+        rows: usize,
+        columns: usize,
+        [rr, ri, ii]: [f64; 3],
+        gram: &dyn Fn(usize, usize) -> f64,
+    ) -> DMatrix<f64> {
+        let mut square = DMatrix::zeros(2 * rows, 2 * columns);
+        for a in 0..rows {
+            for b in 0..columns {
                 let g = |i: usize, j: usize| gram(2 * a + i, 2 * b + j);
                 square[(2 * a, 2 * b)] = rr * g(0, 0) + ri * (g(0, 1) + g(1, 0)) + ii * g(1, 1);
                 square[(2 * a, 2 * b + 1)] = rr * g(0, 1) + ri * (g(1, 1) - g(0, 0)) - ii * g(1, 0);
@@ -162,41 +179,44 @@ impl<'a> ModeGroups<'a> {
         total.groups()
     }
 
-    /// The lines of a part of the resonance are a group, of all FRFs.
-    fn parts(&self, data: &Data) -> GroupSum {
-        let lines = data.lines();
-        let pole = self.at.poles[self.m].value;
-        let sum = |of: &dyn Fn(&Complex64) -> f64| self.shape.iter().map(of).sum::<f64>();
-        let products = [sum(&|p| p.re * p.re), sum(&|p| p.re * p.im), sum(&|p| p.im * p.im)];
-        let size = 2 * self.count;
-        let jacobian = |row: usize, k: usize| self.step.projected_jacobian[(row, 2 * self.first + k)];
-        let mut grams = vec![DMatrix::<f64>::zeros(size, size); PARTS.len() + 1];
-        let mut gradients = vec![DMatrix::<f64>::zeros(size, 1); PARTS.len() + 1];
+    /// Distance δ to the pole of no motion; `None` if the pole does not change along the resonance.
+    fn linear_pole(&self, problem: &Problem) -> Option<Complex64> {
+        let data = problem.data();
+        let (lines, pole) = (data.lines(), &self.at.poles[self.m]);
+        // Derivatives by the pole, times the square of the motion over its largest.
+        let mut columns = problem.pole_derivative(pole);
         for (k, hz) in data.frequencies.iter().enumerate() {
-            let offset = (std::f64::consts::TAU * hz - pole.im) / pole.re.abs();
-            let part = PARTS.iter().filter(|end| offset > **end).count();
+            let motion = pole.value.re.powi(2) / (Complex64::new(0.0, TAU * hz) - pole.value).norm_sqr();
             for block in 0..2 * data.inputs() {
-                let row = block * lines + k;
-                let error: Complex64 =
-                    self.shape.iter().enumerate().map(|(o, p)| p.conj() * self.at.residual[(row, o)]).sum();
-                for a in 0..self.count {
-                    let g = Complex64::new(jacobian(row, 2 * a), jacobian(row, 2 * a + 1)) * error;
-                    gradients[part][2 * a] += g.re;
-                    gradients[part][2 * a + 1] += g.im;
-                }
-                for i in 0..size {
-                    for j in 0..size {
-                        grams[part][(i, j)] += jacobian(row, i) * jacobian(row, j);
-                    }
-                }
+                columns.row_mut(block * lines + k).iter_mut().for_each(|value| *value *= motion);
             }
         }
-        let mut total = Total::default();
-        for (gram, gradient) in grams.iter().zip(&gradients) {
-            let information = self.information(products, &|i, j| gram[(i, j)]);
-            self.add(&mut total, gradient, &information);
+        let columns = &columns - mul(&self.at.q, &tr_mul(&self.at.q, &columns));
+        let slope = tr_mul(&columns, &self.at.residual);
+        let sum = |of: &dyn Fn(&Complex64) -> f64| self.shape.iter().map(of).sum::<f64>();
+        let products = [sum(&|p| p.re * p.re), sum(&|p| p.re * p.im), sum(&|p| p.im * p.im)];
+        let gradient: Complex64 = self
+            .shape
+            .iter()
+            .enumerate()
+            .map(|(o, psi)| psi.conj() * Complex64::new(slope[(0, o)], slope[(1, o)]))
+            .sum();
+        let gradient = DMatrix::from_column_slice(2, 1, &[gradient.re, gradient.im]);
+        let size = 2 * self.count;
+        let jacobian = self.step.projected_jacobian.columns(2 * self.first, size).into_owned();
+        let all = tr_mul(&columns, &jacobian);
+        let own = tr_mul(&columns, &columns);
+        let own = self.information_of(1, 1, products, &|i, j| own[(i, j)]);
+        let cross = self.information_of(1, self.count, products, &|i, j| all[(i, j)]);
+        // Without the part that the mode's own parameters take up.
+        let rest = own - &cross * &self.inverse * cross.transpose();
+        let change = rest.clone().lu().solve(&gradient)?;
+        let explained = (change.transpose() * &gradient)[0];
+        if explained.is_nan() || explained < 2.0 * MIN_SIGNIFICANCE * self.at.residual_variance() {
+            return None;
         }
-        total.groups()
+        let pole = -(self.inverse.rows(0, 2) * cross.transpose() * change);
+        Some(Complex64::new(pole[0], pole[1]))
     }
 
     /// Trend of the outputs' poles with the square of their motion; `None` with too few outputs.

@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use super::data::Data;
+use super::data::{Data, noise_rms, rms};
 use super::lsfd::Fit;
 use super::mac::mac;
 use super::misfit::with_model_error;
@@ -77,32 +77,40 @@ pub(super) fn select_modes(
             doubts[m].push(Doubt::MaybeTwo);
         }
     }
-    for m in pairs::indistinct(&problem, &at) {
+    let mut covariance = with_model_error(&problem, &at, &settled.covariance);
+    for (m, neighbour) in pairs::indistinct(&problem, &at) {
         doubts[m].push(Doubt::MaybeOne);
+        // One mode would lie between the two.
+        let apart = 0.5 * (at.poles[neighbour].value - at.poles[m].value);
+        covariance[m][0] += apart.re * apart.re;
+        covariance[m][1] += apart.im * apart.im;
     }
     for (pole, doubts) in at.poles.iter().zip(&mut doubts).filter(|(pole, _)| pole.held) {
         debug_assert!(pole.stable.is_some());
         doubts.push(Doubt::Held);
     }
     let fit = problem.fit(&at);
-    let covariance = with_model_error(problem.data(), &at, &problem.step(&at), &settled.covariance);
     Some(SelectedModes { poles: at.poles, fit, covariance, significance: settled.significance, doubts })
 }
 
+/// Rounds in which pairs of FRFs without noise are sought: a pair shows once those with larger residuals are resolved.
+const EXACT_ROUNDS: usize = 4;
+
 /// The fit with all pairs, certain or not, if the FRFs have no noise and it leaves nothing to explain.
 fn exact_pairs(problem: &Problem, at: &FitPoint, splits: &[Split], settings: &Settings) -> Option<Settled> {
-    if splits.iter().all(|split| matches!(split, Split::One)) || !pairs::without_noise(problem.data()) {
+    if !pairs::without_noise(problem.data()) {
         return None;
     }
-    let mut poles = Vec::new();
-    for (pole, split) in at.poles.iter().zip(splits) {
-        match split {
-            Split::One => poles.push(pole.clone()),
-            Split::Maybe(pair) | Split::Two(pair) => poles.extend(pair.iter().cloned()),
+    let mut poles = pairs::all_poles(&at.poles, splits)?;
+    for _ in 0..EXACT_ROUNDS {
+        let settled = settle(problem, poles, settings, &mut Vec::new())?;
+        if pairs::is_exact(problem, &settled.at) {
+            return Some(settled);
         }
+        let splits = pairs::splits(problem, &settled.at, settings);
+        poles = pairs::all_poles(&settled.at.poles, &splits)?;
     }
-    let settled = settle(problem, poles, settings, &mut Vec::new())?;
-    pairs::is_exact(problem, &settled.at).then_some(settled)
+    None
 }
 
 /// The fit with the pairs that are certain; adds the poles of modes that may be two.
@@ -345,20 +353,34 @@ fn duplicate_fault(data: &Data, at: &FitPoint, m: usize, significance: &[f64]) -
     Some(DroppedPole { value: own.value, reason })
 }
 
-/// Reweights every FRF by the residual of a fit; returns its poles in the new scales.
+/// Reweights every FRF by its noise and by the misfit of a fit; returns its poles in the new scales.
+///
+/// The misfit, over the size of an FRF, is the median of all: weights by each FRF's own would follow the few
+/// FRFs that the model happens to fit.
 fn reweight(data: &mut Data, found: FitPoint) -> Vec<Pole> {
     let fit = Problem::new(data).fit(&found);
     let model = synthesise(data, &found.poles, &fit);
     let left = |frf: &[Complex64], model: &[Complex64]| {
         let sum: f64 = frf.iter().zip(model).map(|(h, m)| (h - m).norm_sqr()).sum();
-        (sum / frf.len() as f64).sqrt()
+        sum / frf.len() as f64
     };
-    let mut sizes: Vec<Vec<f64>> = data
-        .values
+    let all = || data.values.iter().flatten();
+    let noise: Vec<f64> = all().map(|frf| noise_rms(frf).powi(2)).collect();
+    let square: Vec<f64> = all().map(|frf| rms(frf).powi(2)).collect();
+    let rest: Vec<f64> = all().zip(model.iter().flatten()).map(|(frf, model)| left(frf, model)).collect();
+    let mut misfits: Vec<f64> = rest
         .iter()
-        .zip(&model)
-        .map(|(row, model)| row.iter().zip(model).map(|(frf, model)| left(frf, model)).collect())
+        .zip(&noise)
+        .zip(&square)
+        .filter(|(_, size)| **size > 0.0)
+        .map(|((rest, noise), size)| (rest - noise).max(0.0) / size)
         .collect();
+    misfits.sort_by(f64::total_cmp);
+    let misfit = misfits.get(misfits.len() / 2).copied().unwrap_or(0.0);
+    let inputs = data.inputs();
+    let size = |k: usize| (noise[k] + misfit * square[k]).sqrt();
+    let mut sizes: Vec<Vec<f64>> =
+        (0..data.outputs()).map(|o| (0..inputs).map(|i| size(o * inputs + i)).collect()).collect();
     // Lower limit of the scale: a thousandth of the largest residual.
     let floor = 1e-3 * sizes.iter().flatten().copied().fold(0.0, f64::max);
     sizes.iter_mut().flatten().for_each(|size| *size = size.max(floor));

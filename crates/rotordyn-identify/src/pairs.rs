@@ -183,6 +183,16 @@ fn different(shapes: f64, a: &Pole, b: &Pole) -> bool {
         && mac(&a.participation, &b.participation) < DIFFERENT_PARTICIPATIONS
 }
 
+/// Poles with all pairs, certain or not; `None` if there is no pair.
+pub(super) fn all_poles(poles: &[Pole], splits: &[Split]) -> Option<Vec<Pole>> {
+    let of = |(pole, split): (&Pole, &Split)| match split {
+        Split::One => vec![pole.clone()],
+        Split::Maybe(pair) | Split::Two(pair) => pair.to_vec(),
+    };
+    let all: Vec<Pole> = poles.iter().zip(splits).flat_map(of).collect();
+    (all.len() > poles.len()).then_some(all)
+}
+
 /// Whether the FRFs have no noise, so that their modes can be found exactly.
 pub(super) fn without_noise(data: &Data) -> bool {
     let share = |frf: &Vec<Complex64>| noise_rms(frf).powi(2) / rms(frf).powi(2).max(f64::MIN_POSITIVE);
@@ -195,17 +205,21 @@ pub(super) fn is_exact(problem: &Problem, at: &FitPoint) -> bool {
     at.cost < EXACT * problem.energy()
 }
 
-/// Modes that may be one with a close neighbour.
-pub(super) fn indistinct(problem: &Problem, at: &FitPoint) -> Vec<usize> {
+/// Modes that may be one with a close neighbour, and the neighbour.
+pub(super) fn indistinct(problem: &Problem, at: &FitPoint) -> Vec<(usize, usize)> {
     if is_exact(problem, at) {
         return Vec::new();
     }
-    let close =
-        |a: &Pole, b: &Pole| (a.value - b.value).norm() < CLOSE * a.value.re.abs().max(b.value.re.abs());
+    let distance = |a: usize, b: usize| (at.poles[a].value - at.poles[b].value).norm();
     let alike = |a: usize, b: usize| {
         let (first, second) = (&at.poles[a], &at.poles[b]);
-        close(first, second) && !different(shape_mac(problem, at, a, b), first, second)
+        let close = distance(a, b) < CLOSE * first.value.re.abs().max(second.value.re.abs());
+        close && !different(shape_mac(problem, at, a, b), first, second)
     };
     let count = at.poles.len();
-    (0..count).filter(|&a| (0..count).any(|b| a != b && alike(a, b))).collect()
+    let neighbour = |a: usize| {
+        let alike = (0..count).filter(|&b| a != b && alike(a, b));
+        Some((a, alike.min_by(|b, c| distance(a, *b).total_cmp(&distance(a, *c)))?))
+    };
+    (0..count).filter_map(neighbour).collect()
 }

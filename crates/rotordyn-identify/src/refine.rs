@@ -203,6 +203,12 @@ impl<'a> Problem<'a> {
         GaussNewtonStep::new(&self.basis, at)
     }
 
+    /// Derivatives of the FRFs by a pole, for the real and imaginary part of ψ δλ: two columns.
+    pub fn pole_derivative(&self, pole: &Pole) -> DMatrix<f64> {
+        let free = Pole::new(pole.value, pole.participation.clone());
+        self.basis.derivative_columns(&[free]).0.columns(0, 2).into_owned()
+    }
+
     pub fn fit(&self, at: &FitPoint) -> Fit {
         self.basis.fit(&at.x, at.poles.len())
     }

@@ -1,5 +1,6 @@
 //! Poles and mode shapes of exact and noisy FRFs, refusals.
 
+mod drift;
 mod exact;
 mod full_band;
 mod known_modes;

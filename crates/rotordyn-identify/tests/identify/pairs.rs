@@ -79,7 +79,7 @@ fn count(zeta: f64, references: usize, db: Option<f64>, seeds: u64) -> Count {
 #[test]
 fn pairs_without_noise_are_found() {
     for references in 1..=3 {
-        let count = count(0.01, references, None, 2);
+        let count = count(0.01, references, None, 1);
         assert_eq!((count.found, count.wrong), (count.pairs, 0), "{references} references: {count:?}");
     }
 }
