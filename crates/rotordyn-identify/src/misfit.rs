@@ -26,7 +26,7 @@ use super::uncertainty::PoleCovariance;
 use rotordyn_linalg::Complex64;
 
 /// F statistic from which a change of the pole along the resonance is no chance.
-const MIN_SIGNIFICANCE: f64 = 10.0;
+const MIN_SIGNIFICANCE: f64 = 5.0;
 /// Share of the squared distance to the pole at rest in the variance.
 const AT_REST: f64 = 0.5;
 /// Least number of groups, in their effective number, for a variance between them.
@@ -209,10 +209,33 @@ impl<'a> ModeGroups<'a> {
         let own = self.information_of(1, 1, products, &|i, j| own[(i, j)]);
         let cross = self.information_of(1, self.count, products, &|i, j| all[(i, j)]);
         // Without the part that the mode's own parameters take up.
-        let rest = own - &cross * &self.inverse * cross.transpose();
-        let change = rest.clone().lu().solve(&gradient)?;
-        let explained = (change.transpose() * &gradient)[0];
-        if explained.is_nan() || explained < 2.0 * MIN_SIGNIFICANCE * self.at.residual_variance() {
+        let taken = &cross * &self.inverse;
+        let rest = own - &taken * cross.transpose();
+        let change = rest.lu().solve(&gradient)?;
+        // Scatter of the gradient from line to line: noise of the force is strong at the resonance, and common to all outputs.
+        let mut scatter = DMatrix::<f64>::zeros(2, 2);
+        for line in 0..lines {
+            for input in 0..data.inputs() {
+                let mut score = DMatrix::<f64>::zeros(2 + size, 1);
+                for row in [2 * input * lines + line, (2 * input + 1) * lines + line] {
+                    let outputs = self.shape.iter().enumerate();
+                    let error: Complex64 = outputs.map(|(o, p)| p.conj() * self.at.residual[(row, o)]).sum();
+                    let mut add = |place: usize, re: f64, im: f64| {
+                        let g = Complex64::new(re, im) * error;
+                        score[place] += g.re;
+                        score[place + 1] += g.im;
+                    };
+                    add(0, columns[(row, 0)], columns[(row, 1)]);
+                    for a in 0..self.count {
+                        add(2 + 2 * a, jacobian[(row, 2 * a)], jacobian[(row, 2 * a + 1)]);
+                    }
+                }
+                let own = score.rows(0, 2) - &taken * score.rows(2, size);
+                scatter += &own * own.transpose();
+            }
+        }
+        let significance = 0.5 * (gradient.transpose() * scatter.lu().solve(&gradient)?)[0];
+        if significance.is_nan() || significance < MIN_SIGNIFICANCE {
             return None;
         }
         let pole = -(self.inverse.rows(0, 2) * cross.transpose() * change);

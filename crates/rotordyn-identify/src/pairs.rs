@@ -9,6 +9,7 @@
 
 use std::f64::consts::TAU;
 
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::Settings;
@@ -32,8 +33,10 @@ pub(super) enum Split {
 const WINDOW: f64 = 4.0;
 const MIN_LINES: f64 = 20.0;
 /// Steps of the fits with one pole and with two.
-const ONE_STEPS: usize = 8;
-const TWO_STEPS: usize = 30;
+const ONE_STEPS: usize = 4;
+const TWO_STEPS: usize = 12;
+/// Principal directions of the outputs that are fitted around a mode: more than the modes there.
+const DIRECTIONS: usize = 6;
 /// Distances of the two poles at the start, over their decay rate.
 const START_DISTANCES: [f64; 2] = [0.2, 0.7];
 /// Minimum F statistic of a second pole.
@@ -52,6 +55,8 @@ const DIFFERENT_PARTICIPATIONS: f64 = 0.95;
 /// Reduction of the squared residuals that is taken for a second mode even with one input, if the shapes are unlike.
 const LARGE_REDUCTION: f64 = 100.0;
 const UNLIKE_SHAPES: f64 = 0.7;
+/// Distance over the larger decay rate below which two poles with noise may be one that changes from hit to hit.
+const LEAST_APART: f64 = 0.3;
 /// Distance over the larger decay rate below which a pair is close.
 const CLOSE: f64 = 1.5;
 /// Largest distance of a pair over the larger decay rate.
@@ -87,11 +92,11 @@ fn split(problem: &Problem, at: &FitPoint, fit: &Fit, m: usize, settings: &Setti
         };
         far.iter().map(of).sum::<Complex64>() * s[k].powi(data.power)
     };
-    let local = data.window(first..=last, others);
+    let local = projected(data.window(first..=last, others));
     let here = Problem::new(&local);
     let start: Vec<Pole> = near.iter().map(|&k| at.poles[k].clone()).collect();
     let Some(own) = near.iter().position(|&k| k == m) else { return Split::One };
-    let (outputs, inputs) = (data.outputs(), data.inputs());
+    let (outputs, inputs) = (local.outputs(), local.inputs());
     let unknowns = (start.len() + 1) * (2 * outputs + 2 * inputs) + 2 * inputs * outputs;
     let all = 2 * local.lines() * outputs * inputs;
     if all < 2 * unknowns {
@@ -138,7 +143,37 @@ fn split(problem: &Problem, at: &FitPoint, fit: &Fit, m: usize, settings: &Setti
     }
     let shapes = shape_mac(&here, &two, count - 2, count - 1);
     let large = one.cost > LARGE_REDUCTION * two.cost && shapes < UNLIKE_SHAPES;
-    if large || different(shapes, &pair[0], &pair[1]) { Split::Two(pair) } else { Split::Maybe(pair) }
+    let apart = (pair[0].value - pair[1].value).norm() > LEAST_APART * decay;
+    if large || (apart && different(shapes, &pair[0], &pair[1])) {
+        Split::Two(pair)
+    } else {
+        Split::Maybe(pair)
+    }
+}
+
+/// FRFs on the principal directions of the outputs; lengths and angles of shapes are preserved.
+fn projected(data: Data) -> Data {
+    let outputs = data.outputs();
+    if outputs <= DIRECTIONS {
+        return data;
+    }
+    let (lines, inputs) = (data.lines(), data.inputs());
+    let flat = DMatrix::from_fn(2 * inputs * lines, outputs, |row, o| {
+        let h = data.values[o][row / (2 * lines)][row / 2 % lines];
+        if row % 2 == 0 { h.re } else { h.im }
+    });
+    let eigen = flat.tr_mul(&flat).symmetric_eigen();
+    let mut order: Vec<usize> = (0..outputs).collect();
+    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let along = |place: &usize| -> Vec<Vec<Complex64>> {
+        let direction = eigen.eigenvectors.column(*place);
+        let sum = |i: usize, k: usize| -> Complex64 {
+            data.values.iter().zip(direction.iter()).map(|(row, weight)| row[i][k] * *weight).sum()
+        };
+        (0..inputs).map(|i| (0..lines).map(|k| sum(i, k)).collect()).collect()
+    };
+    let values = order.iter().take(DIRECTIONS).map(along).collect();
+    Data { values, output_scale: vec![1.0; DIRECTIONS], ..data }
 }
 
 /// Start values of a pair around one pole: apart in frequency, with participations on both sides of the first
@@ -155,8 +190,9 @@ fn start_pairs(pole: &Pole, (directions, sizes): (Vec<Vec<Complex64>>, Vec<f64>)
             _ => pole.participation.clone(),
         }
     };
-    let signs: &[f64] = if directions.len() > 1 { &[1.0, -1.0] } else { &[1.0] };
-    for distance in START_DISTANCES {
+    let (signs, distances): (&[f64], &[f64]) =
+        if directions.len() > 1 { (&[1.0, -1.0], &START_DISTANCES[1..]) } else { (&[1.0], &START_DISTANCES) };
+    for distance in distances {
         for sign in signs {
             let offset = Complex64::new(0.0, 0.5 * distance * decay);
             out.push([
