@@ -2,10 +2,10 @@
 //!
 //! Two modes closer than their bandwidth, H = a/(s − λ − δ) + b/(s − λ + δ), are to first order a mode and a
 //! double pole: (a + b)/(s − λ) + δ(a − b)/(s − λ)². Around every mode the FRFs, less the other modes, are fitted with
-//! one and with two poles; the reduction of the residuals is judged by its F statistic. Shapes of different modes
-//! differ on both sides of the test. FRFs of a structure that changes between hits (pole λ + δ_o of output o) have the
-//! same double pole, with a participation of one mode only; with one input the two cannot be told from each other unless the
-//! fit is exact, and the mode is marked.
+//! one and with two poles; the reduction of the residuals is judged by its F statistic.
+//! FRFs of a structure that changes between hits (pole λ + δ_o of output o) have the
+//! same double pole: unless the fit is exact or the squared residuals fall to a hundredth with unlike shapes,
+//! the mode stays one and is marked.
 
 use std::f64::consts::TAU;
 
@@ -55,8 +55,6 @@ const DIFFERENT_PARTICIPATIONS: f64 = 0.95;
 /// Reduction of the squared residuals that is taken for a second mode even with one input, if the shapes are unlike.
 const LARGE_REDUCTION: f64 = 100.0;
 const UNLIKE_SHAPES: f64 = 0.7;
-/// Distance over the larger decay rate below which two poles with noise may be one that changes from hit to hit.
-const LEAST_APART: f64 = 0.3;
 /// Distance over the larger decay rate below which a pair is close.
 const CLOSE: f64 = 1.5;
 /// Largest distance of a pair over the larger decay rate.
@@ -143,12 +141,7 @@ fn split(problem: &Problem, at: &FitPoint, fit: &Fit, m: usize, settings: &Setti
     }
     let shapes = shape_mac(&here, &two, count - 2, count - 1);
     let large = one.cost > LARGE_REDUCTION * two.cost && shapes < UNLIKE_SHAPES;
-    let apart = (pair[0].value - pair[1].value).norm() > LEAST_APART * decay;
-    if large || (apart && different(shapes, &pair[0], &pair[1])) {
-        Split::Two(pair)
-    } else {
-        Split::Maybe(pair)
-    }
+    if large { Split::Two(pair) } else { Split::Maybe(pair) }
 }
 
 /// FRFs on the principal directions of the outputs; lengths and angles of shapes are preserved.
