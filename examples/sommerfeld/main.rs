@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use rotordyn::linalg::{Outside, piecewise};
-use rotordyn::model::{self, Options};
+use rotordyn::model::{self, LoadFactor, Options};
 use rotordyn::plot::{self, Curve, Figure, Grid, GridPanel};
 use rotordyn::study::Machine;
 use rotordyn::transient::run::End;
@@ -30,7 +30,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     std::fs::create_dir_all(&folder)?;
     let model = model::load("sommerfeld.toml", MODEL, &Options::default())?.model;
     let study = model.studies.run_up.clone().ok_or("the model has no run-up study")?;
-    let history = model.loads.first().ok_or("the model has no motor")?.history.clone();
+    let LoadFactor::Table(history) = model.loads.first().ok_or("the model has no motor")?.factor.clone()
+    else {
+        return Err("the torque of the motor does not vary over time".into());
+    };
     let top = history.iter().map(|row| row[1]).fold(0.0, f64::max);
     let turn = history.iter().find(|row| row[1] == top).map_or(0.0, |row| row[0]);
     let machine = Machine::new(model)?;

@@ -16,6 +16,46 @@ const UNITS: [&str; 40] = [
     "m/s^2", "g/N", "mm/s", "N s/m", "1/s", "mm^2/s", "Pa s", "%", "kHz^2", "lbf",
 ];
 
+/// Classes, keys and values of rotors that ROSS saves.
+pub fn ross() -> Vec<Vec<u8>> {
+    words(&[
+        "ross_version",
+        "parameters",
+        "ShaftElement_",
+        "DiskElement_",
+        "BearingElement_",
+        "SealElement_",
+        "PointMass_",
+        "CouplingElement_",
+        "GearElement_",
+        "material",
+        "n_link",
+        "frequency",
+        "speed",
+        "interpolation",
+        "kxx",
+        "cxy",
+        "mzz",
+        "idl",
+        "odr",
+        "shear_method_calc",
+        "hutchinson",
+        "alpha",
+        "beta",
+        "Ip_l",
+        "kt_x",
+        "mx",
+        "null",
+        "[[",
+        "1e308",
+        "1e-320",
+        "nan",
+        "inf",
+        "-0.0",
+        "18446744073709551615",
+    ])
+}
+
 /// Keys of the model file with what they are assigned in examples, their words and units.
 pub fn model() -> Vec<Vec<u8>> {
     let mut found = words(&UNITS);

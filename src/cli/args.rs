@@ -3,6 +3,7 @@
 mod bearing;
 mod common;
 mod compare;
+mod import;
 mod init;
 pub mod keys;
 mod manual;
@@ -25,6 +26,7 @@ use super::signal::args::SignalArgs;
 use super::trend::args::TrendArgs;
 pub use bearing::BearingArgs;
 pub use compare::CompareArgs;
+pub use import::ImportArgs;
 pub use init::{InitArgs, STARTERS};
 use manual::{AFTER_HELP, LONG_ABOUT};
 pub use measured::{EstimatorName, IdentifyArgs, NoiseArgs, ShaftArgs};
@@ -96,6 +98,14 @@ Examples:
   rotordyn init spindle -o my_spindle.toml
   rotordyn init pump -o - | less")]
     Init(InitArgs),
+
+    /// Write a model file from a rotor that ROSS saved
+    ///
+    /// Reads files of ROSS 2 and 3, TOML or JSON: shaft elements, cones included, discs, bearings and seals with
+    /// coefficients over speed and whirl frequency, supports, point masses, couplings, damping. Prints what went where,
+    /// and names everything that was not carried over; each of these is a warning.
+    #[command(after_long_help = import::EXAMPLES)]
+    Import(ImportArgs),
 
     /// Run all studies of the model file
     ///

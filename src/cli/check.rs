@@ -121,8 +121,9 @@ fn summary(terminal: &Terminal, found: &CheckedVariant) {
     let model = &found.loaded.model;
     let dofs = &found.machine.assembly.dofs;
     let discs: f64 = model.discs.iter().map(|d| d.mass).sum();
-    let bodies: f64 =
-        model.bodies.iter().map(|b| b.mass).sum::<f64>() + model.masses.iter().map(|m| m.mass).sum::<f64>();
+    // of a mass that differs by axis the one against gravity, as in the total
+    let bodies = model.bodies.iter().map(|b| b.mass).chain(model.masses.iter().map(|m| m.mass));
+    let bodies: f64 = bodies.map(|mass| mass[1]).sum();
     terminal.heading(&format!("{}: {}", model.name, model.title));
     let length = match (model.node_z.first(), model.node_z.last()) {
         (Some(a), Some(b)) => b - a,

@@ -1,9 +1,9 @@
 //! Free parameters of `update` from `--free`, `--bounds` and `--prior`.
 
-use rotordyn::model::parameter_paths::resolve_parameter_path;
+use rotordyn::model::parameter_paths::{all_values, resolve_parameter_path};
 use rotordyn::model::renamed_path;
 use rotordyn::units::leading_number;
-use rotordyn::update::parameter::{FreeParameter, ModelNumber};
+use rotordyn::update::parameter::{self, FreeParameter, ModelNumber};
 
 use super::args::UpdateArgs;
 use super::failure::Failure;
@@ -43,6 +43,14 @@ pub fn parameters(
             .push(format!("{name} is not in --free; --bounds and --prior take the names given to --free"));
     }
     if problems.is_empty() { Ok(out) } else { Err(Failure::Input(problems.join("\n"))) }
+}
+
+/// Numbers of the model file that are not free but could be.
+pub fn candidates(free: &[FreeParameter], origin: &ModelSource) -> Result<Vec<FreeParameter>, Failure> {
+    let values = all_values(&origin.text, &origin.options).map_err(Failure::Input)?;
+    let numbers: Vec<ModelNumber> =
+        values.iter().filter_map(|v| ModelNumber::read(&v.path, &v.text, v.quoted)).collect();
+    Ok(parameter::candidates(&numbers, free))
 }
 
 fn parse_parameter(name: &str, args: &UpdateArgs, origin: &ModelSource) -> Result<FreeParameter, String> {

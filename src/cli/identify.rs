@@ -11,6 +11,7 @@ use rotordyn::identify::{ModalIdentification, Settings, identify, quantity_of};
 use rotordyn::io::hdf5::open_reader;
 use rotordyn::io::measured::impact_run;
 use rotordyn::io::measured::mapping::{self, Mapping};
+use rotordyn::io::measured::operating_run;
 use rotordyn::io::{identified_modes, json, machine_records, measured};
 use rotordyn::model::Quantity;
 use rotordyn::signal::impact::{self, Estimator, ImpactTest, ImpactWindows};
@@ -48,13 +49,14 @@ pub fn run(args: &IdentifyArgs, terminal: &Terminal) -> Result<Outcome, Failure>
     let spinner = terminal.spinner("identify");
     let (mut warnings, mut left_out) = (Vec::new(), Vec::new());
     let outcome = match read_measured(args, &test, &mut warnings, &mut left_out) {
-        Ok(Measured::Responses(path, file)) => {
+        Ok(Measured::Responses { path, file, orders }) => {
             spinner.finish_and_clear();
             left_out.into_iter().for_each(|text| terminal.warn_of(Code::LeftOut, text));
             warnings.into_iter().for_each(|warning| terminal.warn_of(Code::Identification, warning));
             let settings = OperationalSettings {
                 band: settings.band,
                 max_order: settings.max_order,
+                orders,
                 ..OperationalSettings::default()
             };
             return operational::run(args, &path, file, settings, terminal);
@@ -219,8 +221,8 @@ fn settings(args: &IdentifyArgs) -> Result<Settings, Failure> {
 enum Measured {
     /// FRFs, also of hits, and whether any comes from hits.
     Frfs(MeasuredData, bool),
-    /// A record of responses without a force.
-    Responses(PathBuf, MeasuredData),
+    /// A record of responses without a force, and orders of its sines that the file states.
+    Responses { path: PathBuf, file: MeasuredData, orders: Vec<f64> },
 }
 
 /// Reads all files, converts time records of hits to FRFs.
@@ -260,12 +262,13 @@ fn read_measured(
     let mut tests: Vec<(&Path, Vec<MeasuredData>)> = Vec::new();
     let mut simulated = false;
     for path in &args.files {
-        let mut file = match simulated_test_frfs(path, test)? {
-            Some(run) => {
+        let (mut file, orders) = match read_stored_run(args, path, test, warnings)? {
+            Some(StoredRun::Hit(frfs)) => {
                 simulated = true;
-                run
+                (frfs, None)
             }
-            None => measured::read_at_rate(path, limits(), rate)?,
+            Some(StoredRun::Operation(records, orders)) => (records, Some(orders)),
+            None => (measured::read_at_rate(path, limits(), rate)?, None),
         };
         left_out.extend(file.left_out_text().map(|text| format!("{}: {text}", path.display())));
         let notes = std::mem::take(&mut file.notes);
@@ -289,8 +292,9 @@ fn read_measured(
         let has_frf = file.records.iter().any(|r| r.kind == Kind::Frf);
         let has_time = file.records.iter().any(|r| r.kind == Kind::Time);
         let of_hits = test.force.is_some() || test.block.is_some() || test.time_constant.is_some();
-        if !has_frf && args.files.len() == 1 && !of_hits && operational::is_without_force(&file) {
-            return Ok(Measured::Responses(path.clone(), file));
+        let responses = !args.channels.is_empty() || operational::is_without_force(&file);
+        if orders.is_some() || (!has_frf && args.files.len() == 1 && !of_hits && responses) {
+            return Ok(Measured::Responses { path: path.clone(), file, orders: orders.unwrap_or_default() });
         }
         if has_frf || !has_time {
             add_records(args, path, file.records, &mut all);
@@ -324,22 +328,52 @@ fn read_measured(
         || args.shaft.tacho.is_some()
         || args.shaft.track.is_some()
         || !args.orders.is_empty()
+        || !args.channels.is_empty()
     {
         warnings.push(
-            "--speed, --tacho, --track and --orders apply to a record without a force; they are not used"
+            "--speed, --tacho, --track, --orders and --channels apply to a record without a force; they are not used"
                 .into(),
         );
     }
     Ok(Measured::Frfs(all, from_hits))
 }
 
-/// FRFs of a simulated impact test.
-fn simulated_test_frfs(path: &Path, test: &ImpactTest) -> Result<Option<MeasuredData>, Failure> {
+/// What a run of this program is for `identify`.
+enum StoredRun {
+    /// FRFs of a simulated impact test.
+    Hit(MeasuredData),
+    /// Responses of the machine in operation, and the ball-pass orders of its bearings.
+    Operation(MeasuredData, Vec<f64>),
+}
+
+/// The run in a results file: a simulated impact test, or responses of the machine in operation where a random force acts, where
+/// channels are chosen or where the file has no FRFs.
+fn read_stored_run(
+    args: &IdentifyArgs,
+    path: &Path,
+    test: &ImpactTest,
+    warnings: &mut Vec<String>,
+) -> Result<Option<StoredRun>, Failure> {
     if measured::Format::of_extension(path) != Some(measured::Format::Hdf5) || !path.exists() {
         return Ok(None);
     }
     let windows = ImpactWindows { force_length: None, time_constant: test.time_constant };
-    Ok(impact_run::impact_frfs_windowed(&*open_reader(path, limits())?, windows)?)
+    let store = open_reader(path, limits())?;
+    if let Some(frfs) = impact_run::impact_frfs_windowed(&*store, windows)? {
+        return Ok(Some(StoredRun::Hit(frfs)));
+    }
+    let Some(run) = operating_run::operating_run(&*store)? else { return Ok(None) };
+    if args.files.len() > 1 || (run.has_frfs && !run.is_random && args.channels.is_empty()) {
+        return Ok(None);
+    }
+    if !run.is_random {
+        warnings.push(
+            "no random force acts in this run, so that its responses without the orders of the shaft are no response to \
+             random forces and poles found in them may be no modes; add a load with a `band`, see `rotordyn help load.NAME.band`"
+                .into(),
+        );
+    }
+    Ok(Some(StoredRun::Operation(run.records, run.orders)))
 }
 
 /// Whether two files contain the same channels, all at known points.

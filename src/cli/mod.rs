@@ -28,6 +28,7 @@ mod help;
 mod identified_file;
 mod identify;
 mod identify_tables;
+mod import;
 mod init;
 pub(crate) mod interrupt;
 mod job_files;
@@ -64,6 +65,7 @@ pub(crate) mod terminal;
 mod trend;
 mod unbalance_tables;
 mod update;
+mod update_findings;
 mod validate;
 
 use outcome::{Outcome, finish, print_model_warnings, print_written_files, report};
@@ -147,6 +149,7 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Run { study, checkpoints } => {
             studies_of(study, Some(checkpoints), terminal, None, &|_| Settings::default())
         }
+        Command::Import(args) => import::run(args, terminal).map(Outcome::from),
         Command::Init(args) => init::run(args, terminal).map(Outcome::from),
         Command::Check(args) => check::run(args, terminal).map(Outcome::from),
         Command::Spectrogram(args) => stored_run::run(args, terminal, Study::Spectrogram),

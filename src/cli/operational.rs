@@ -8,8 +8,9 @@ use rotordyn::figures;
 use rotordyn::identify::operational::{
     OperationalModes, OperationalSettings, OutputRecord, Shaft, identify_operational,
 };
-use rotordyn::io::measured::run_up::is_rotation_signal;
+use rotordyn::io::measured::run_up::{is_rotation_signal, quantity};
 use rotordyn::io::{json, measured, operational_modes};
+use rotordyn::signal::Quantity;
 use rotordyn::signal::record::{Dof, Kind, MeasuredData, Record};
 use rotordyn::study::signal::SignalChannel;
 use rotordyn::units::SPEED;
@@ -34,7 +35,7 @@ pub fn is_without_force(file: &MeasuredData) -> bool {
     let moves = |r: &Record| {
         let name = r.name.to_lowercase();
         let named = ["force", "hammer", "impact", "kraft"].iter().any(|word| name.contains(word));
-        matches!(r.unit.as_str(), "m/s^2" | "m/s" | "m" | "" | "1") && !named
+        (quantity(&r.unit).is_some() || matches!(r.unit.as_str(), "" | "1")) && !named
     };
     vibrations.peek().is_some() && vibrations.all(moves)
 }
@@ -44,7 +45,7 @@ pub fn run(
     args: &IdentifyArgs,
     path: &Path,
     measured: MeasuredData,
-    settings: OperationalSettings,
+    mut settings: OperationalSettings,
     terminal: &Terminal,
 ) -> Result<Outcome, Failure> {
     let start = Instant::now();
@@ -57,13 +58,16 @@ pub fn run(
         }),
         None => ShaftSource::of(&args.shaft, args.rate.as_deref(), &file, &mut findings),
     };
-    let orders = orders(args, &shaft, &mut findings);
-    let chosen = channels(args, &file, &mut findings);
+    let stated = std::mem::take(&mut settings.orders);
+    settings.orders = match &args.orders[..] {
+        [] if shaft.is_known() => stated,
+        _ => orders(args, &shaft, &mut findings),
+    };
+    let record = channels(args, &file, &mut findings);
     findings.to_result()?;
-    let Some((mut record, start_time)) = chosen else {
+    let Some((mut record, start_time)) = record else {
         return Err(Failure::Input("no channel to identify".into()));
     };
-    let mut settings = OperationalSettings { orders, ..settings };
     settings.shaft = shaft_of(&shaft, &mut record, start_time).map_err(Failure::Input)?;
     let spinner = terminal.spinner("identify");
     let found = identify_operational(&record, &settings);
@@ -102,21 +106,42 @@ fn orders(args: &IdentifyArgs, shaft: &ShaftSource, findings: &mut InputProblems
     list
 }
 
+/// The chosen channels, or all vibration channels, of the file.
+fn chosen<'a>(args: &IdentifyArgs, file: &'a File, findings: &mut InputProblems) -> Vec<&'a Record> {
+    let tacho = args.shaft.tacho.as_deref();
+    if !args.channels.is_empty() {
+        let find = |name: &String| findings.value_or_problem("--channels: ", file.record(name.trim()));
+        return args.channels.iter().filter_map(find).collect();
+    }
+    let (rotation, vibration): (Vec<&Record>, Vec<&Record>) =
+        file.time_records().filter(|r| Some(r.name.as_str()) != tacho).partition(|r| is_rotation_signal(r));
+    // Torsional vibration in rad/s has the unit of a speed.
+    let names: Vec<&str> =
+        rotation.iter().filter(|r| r.response.is_rotation()).map(|r| r.name.as_str()).collect();
+    if !names.is_empty() {
+        findings.warnings.push(format!(
+            "taken for the rotation of the shaft and left out: {}; --channels takes them as vibrations",
+            names.join(", ")
+        ));
+    }
+    vibration
+}
+
 /// The vibration channels, recorded together, and the time of the first sample.
 fn channels(args: &IdentifyArgs, file: &File, findings: &mut InputProblems) -> Option<(OutputRecord, f64)> {
-    let tacho = args.shaft.tacho.as_deref();
-    let list: Vec<&Record> =
-        file.time_records().filter(|r| !is_rotation_signal(r) && Some(r.name.as_str()) != tacho).collect();
+    let list = chosen(args, file, findings);
     let (mut samples, mut dofs, mut numbered) = (Vec::new(), Vec::new(), Vec::new());
     let mut rate: Option<(f64, &str)> = None;
-    for (k, record) in list.iter().enumerate() {
+    // Channels without a point get numbers beyond those of the file.
+    let mut next = file.measured.records.iter().map(|r| r.response.node).max().unwrap_or(0).max(0);
+    for record in &list {
         let own = findings.value_or_problem("", record.sample_rate())?;
         match rate {
             Some((first, name))
                 if (own / first - 1.0).abs() > 1e-9 || record.values.len() != list[0].values.len() =>
             {
                 findings.problem(format!(
-                    "`{}` is not sampled together with `{name}`; leave it out of the file",
+                    "`{}` is not sampled together with `{name}`; choose others with --channels",
                     record.name
                 ));
             }
@@ -126,19 +151,14 @@ fn channels(args: &IdentifyArgs, file: &File, findings: &mut InputProblems) -> O
         samples.push(findings.value_or_problem("", record.time_samples())?.to_vec());
         dofs.push(match record.response.node {
             0 => {
-                numbered.push(format!("{} is {}", k + 1, record.name));
-                Dof::new(k as i64 + 1, record.response.direction)
+                next += 1;
+                numbered.push(format!("{next} is {}", record.name));
+                Dof::new(next, record.response.direction)
             }
             _ => record.response,
         });
     }
-    let units: Vec<&str> = list.iter().map(|r| r.unit.as_str()).collect();
-    if units.iter().any(|unit| *unit != units[0]) {
-        findings.problem(
-            "the channels have different units, so that their shapes cannot be joined; choose those of one unit, or state the \
-             units in a mapping",
-        );
-    }
+    let quantities = quantities(&list, findings)?;
     if !numbered.is_empty() {
         findings.warnings.push(format!(
             "channels without a point in the file are numbered: {}; give --mapping for shapes at stations",
@@ -149,7 +169,32 @@ fn channels(args: &IdentifyArgs, file: &File, findings: &mut InputProblems) -> O
         rotordyn::signal::record::Points::Uniform { start, .. } => start,
         _ => 0.0,
     };
-    Some((OutputRecord { samples, sample_rate: rate?.0, dofs }, start))
+    Some((OutputRecord { samples, sample_rate: rate?.0, dofs, quantities }, start))
+}
+
+/// Quantities of the channels; equal unknown units are taken for one quantity.
+fn quantities(list: &[&Record], findings: &mut InputProblems) -> Option<Vec<Quantity>> {
+    let first = list.first()?;
+    if list.iter().all(|r| r.unit == first.unit) {
+        return Some(vec![quantity(&first.unit).unwrap_or(Quantity::Acceleration); list.len()]);
+    }
+    let unknown: Vec<String> = list
+        .iter()
+        .filter(|r| quantity(&r.unit).is_none())
+        .map(|r| match r.unit.as_str() {
+            "" => format!("{} (none)", r.name),
+            unit => format!("{} ({unit})", r.name),
+        })
+        .collect();
+    if !unknown.is_empty() {
+        findings.problem(format!(
+            "the channels have different units, and these are none of a displacement, velocity or acceleration: {}; choose \
+             others with --channels, or state the units in a mapping",
+            unknown.join(", ")
+        ));
+        return None;
+    }
+    Some(list.iter().filter_map(|r| quantity(&r.unit)).collect())
 }
 
 /// Motion of the shaft over the record, which is cut to the samples that it covers.

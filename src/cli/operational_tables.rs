@@ -5,6 +5,9 @@ use rotordyn::identify::operational::OperationalModes;
 use super::identify_tables::{print_rejected, strongest, whirl_text};
 use super::terminal::{Terminal, number};
 
+/// Most harmonics in the printed table.
+const MAX_HARMONICS: usize = 24;
+
 /// Table of modes, harmonics and dropped poles.
 pub fn tables(terminal: &Terminal, found: &OperationalModes) {
     let rows: Vec<Vec<String>> = found
@@ -38,6 +41,12 @@ pub fn tables(terminal: &Terminal, found: &OperationalModes) {
         "  +- is one standard error from {} blocks of {:.2} s; MPC (modal phase collinearity) is 1 for a real mode.",
         found.blocks, found.block_length
     ));
+    if found.left_out > 0.0 {
+        terminal.print(&format!(
+            "  The first {} s are left out: a transient, such as that of a start.",
+            number(found.left_out, 3)
+        ));
+    }
     for (k, mode) in found.modes.iter().enumerate() {
         mode.notes.iter().for_each(|note| terminal.print(&format!("  {}: {note}", k + 1)));
     }
@@ -52,10 +61,11 @@ fn harmonics(terminal: &Terminal, found: &OperationalModes) {
     let rows: Vec<Vec<String>> = found
         .harmonics
         .iter()
+        .take(MAX_HARMONICS)
         .map(|h| {
             vec![
                 format!("{:.4}", h.frequency),
-                h.order.map_or("-".into(), |order| format!("{order}x")),
+                h.order.map_or("-".into(), |order| format!("{}x", number(order, 6))),
                 format!("{:.2}", h.kurtosis),
                 if h.removed { "subtracted" } else { "recognised" }.into(),
             ]
@@ -66,4 +76,7 @@ fn harmonics(terminal: &Terminal, found: &OperationalModes) {
         None => "Harmonics (a sine has an excess kurtosis of -1.5, noise of 0)".into(),
     };
     terminal.table(&title, &["Hz", "order", "kurtosis", ""], &rows);
+    if found.harmonics.len() > MAX_HARMONICS {
+        terminal.print(&format!("  ... and {} more in results.h5", found.harmonics.len() - MAX_HARMONICS));
+    }
 }

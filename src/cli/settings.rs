@@ -213,7 +213,7 @@ pub fn run_up(
 fn stands_still(model: &Model) -> bool {
     let standstill = SpeedProfile::Constant { speed: 0.0, duration: 1.0 };
     let prescribed = matches!(model.drive, Drive::Prescribed { .. });
-    prescribed && model.profile == standstill && model.loads.iter().all(|load| load.history.is_empty())
+    prescribed && model.profile == standstill && model.loads.iter().all(|load| load.factor.is_constant())
 }
 
 /// Number of points of a sweep given by a flag.

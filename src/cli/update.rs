@@ -13,7 +13,6 @@ use rotordyn::update::frf::{FrfFitting, rms_difference_db};
 use rotordyn::update::parameter::FreeParameter;
 use rotordyn::update::residual::Fitting;
 use rotordyn::update::{IdentifiabilityClass, Update, UpdateError, UpdateJob, update};
-use rotordyn::warning::Code;
 use serde_json::json;
 
 use super::args::{FitResidual, UpdateArgs};
@@ -23,13 +22,16 @@ use super::folder_lock::FolderLock;
 use super::machine::ModelSource;
 use super::measured::{self, band, folder};
 use super::terminal::{Terminal, number};
-use super::{Outcome, ehl_films, free_parameters, print_model_warnings, print_written_files};
+use super::{
+    Outcome, ehl_films, free_parameters, print_model_warnings, print_written_files, update_findings,
+};
 
 pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let origin = ModelSource::read(&args.study.model)?;
     let mut loaded = origin.load(&[])?;
     print_model_warnings(terminal, &loaded);
     let parameters = free_parameters::parameters(args, &origin, terminal)?;
+    update_findings::check_profiles(&args.profile, &parameters)?;
     let name = match &origin.options.variant {
         Some(variant) => format!("{}_{variant}", loaded.model.name),
         None => loaded.model.name.clone(),
@@ -100,21 +102,16 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
             number(before, 2)
         ));
     }
-    let identifiability = &found.identifiability;
-    terminal.print(&format!(
-        "\nchi^2 = {} with {} degrees of freedom, {} iterations{}",
-        number(identifiability.chi_squared, 3),
-        number(identifiability.degrees_of_freedom, 3),
-        found.iterations.len() - 1,
-        if found.converged { "" } else { ", not converged" }
-    ));
-    quality_warnings(terminal, &parameters, &found);
+    update_findings::print_fit(terminal, &found);
+    let findings = update_findings::findings(terminal, &job, &found, &origin, &args.profile)?;
+    update_findings::print(terminal, &parameters, &found, &findings);
+    update_findings::warn(terminal, &parameters, &found, &findings);
 
     let mut files = vec![write_model(args, &origin, &parameters, &found, &folder)?];
     let path = folder.join("update.h5");
     let store = Store::replace(&path)?;
     let difference = frf_difference_db.map(<[f64; 2]>::from);
-    let content = found.document(&parameters, [&before, &after], difference);
+    let content = found.document(&parameters, &findings, [&before, &after], difference);
     results_file::write_document(&store, "", &content)?;
     store.commit()?;
     files.push(path);
@@ -130,6 +127,8 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
             &stages,
             &folder,
         )?);
+        let title = &loaded.model.title;
+        files.extend(figures::draw_update_profiles(title, &found, &parameters, &findings.profiles, &folder)?);
     }
     let section = Section::new("update", "update", content);
     if args.study.csv {
@@ -200,6 +199,12 @@ fn parameter_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Up
         "  prior variance left = posterior variance / prior variance. Identifiable: at most 10 % left and a standard\n  \
          error of at most 10 %; poorly identifiable: at most 50 % left; otherwise not identifiable, start value kept",
     );
+    if found.goodness.is_rejected() {
+        terminal.print(
+            "  poor fit: the model does not explain the data, so that no parameter is identified; the standard errors do not\n  \
+             cover that error",
+        );
+    }
 }
 
 fn singular_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
@@ -227,67 +232,6 @@ fn singular_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Upd
         &header,
         &rows,
     );
-}
-
-/// Reduced χ² (χ² per degree of freedom) above which a lack-of-fit warning is issued.
-const LACK_OF_FIT_LIMIT: f64 = 4.0;
-/// Change in standard deviations of the prior above which data and prior are reported as inconsistent.
-const PRIOR_SHIFT_LIMIT: f64 = 3.0;
-
-/// Quality warnings: strongly correlated parameters, active bounds, lack of fit, no convergence.
-fn quality_warnings(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
-    let correlation = &found.identifiability.correlation;
-    for i in 0..parameters.len() {
-        for j in 0..i {
-            let c = correlation[i][j];
-            if c.abs() > 0.95 {
-                let what = if c < 0.0 { "sum" } else { "ratio" };
-                terminal.warn_of(
-                    Code::ModelUpdate,
-                    format!(
-                        "{} and {} are strongly correlated ({c:.3}): the data determine only their {what}",
-                        parameters[i].name, parameters[j].name
-                    ),
-                );
-            }
-        }
-        if found.outcomes[i].class == IdentifiabilityClass::AtBound {
-            let name = &parameters[i].name;
-            terminal.warn_of(
-                Code::ModelUpdate,
-                format!("{name} is at its bound: it may compensate another model error"),
-            );
-        }
-    }
-    let identifiability = &found.identifiability;
-    let misfit = identifiability.chi_squared / identifiability.degrees_of_freedom.max(1.0);
-    if misfit > LACK_OF_FIT_LIMIT {
-        terminal.warn_of(Code::ModelUpdate, format!(
-                "the updated model does not fit the data: chi^2 is {} times its degrees of freedom; before using the \
-                 values check the mode pairs, the points, directions, signs and units of the mapping, and the model for \
-                 other errors",
-                number(misfit, 2)
-            ),
-        );
-    }
-    for (parameter, outcome) in parameters.iter().zip(&found.outcomes) {
-        let prior_shift = ((outcome.fitted - parameter.mean) / parameter.deviation).abs();
-        if prior_shift > PRIOR_SHIFT_LIMIT {
-            terminal.warn_of(Code::ModelUpdate, format!(
-                    "{}: the fitted value is {} prior standard deviations away from the prior mean; data and prior are \
-                     inconsistent",
-                    parameter.name,
-                    number(prior_shift, 2)
-                ),
-            );
-        }
-    }
-    if !found.converged {
-        terminal.warn_of(
-            Code::ModelUpdate,
-            "the update did not converge: increase --iterations, or reduce the number of free parameters",
-        );
-    }
 }
 
 /// Writes the model file with the updated values; the rest of its text is unchanged.

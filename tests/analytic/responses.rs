@@ -9,7 +9,7 @@ use rotordyn::analysis::unbalance::Orbit;
 use rotordyn::contact::Lubricant;
 use rotordyn::element::{Anchor, Bushing, Joint, ShearCoefficient};
 use rotordyn::model::study::{Integrator, RunUpStudy};
-use rotordyn::model::{Load, Options, Probe, Quantity, SpeedProfile, load};
+use rotordyn::model::{Load, LoadFactor, Options, Probe, Quantity, SpeedProfile, load};
 use rotordyn::study::Machine;
 use rotordyn::transient::run::End;
 use std::f64::consts::{PI, TAU};
@@ -190,6 +190,35 @@ fn growth_on_negative_stiffness() {
     agree::curves("growth on a negative stiffness", "m", seconds(&time), &ours, &expected, 1e-9);
 }
 
+/// Random force of density G = F²/(f₂ − f₁) \[N²/Hz\] around the natural frequency: the mean square of the displacement is
+/// G π f_n/(4 ζ k²). What the band leaves out is 0.2 % of it; a mean over T deviates by chance by 1/√(2π ζ f_n T).
+#[test]
+fn random_vibration_of_one_mass() {
+    let more = "[damping.modal]\nfrequency = \"50 Hz\"\nratio = 0.02\n[load.flow]\nat = \"C\"\nforce = \"0, 6, 8 N\"\n\
+                band = \"5, 255 Hz\"\n[probe.y]\nat = \"C\"\ndirection = \"y\"\n";
+    let mut machine = mass_on_springs(more);
+    machine.model.profile = SpeedProfile::Constant { speed: 0.0, duration: 200.0 };
+    let study = RunUpStudy { step: 2e-4, ..machine.model.studies.run_up.clone().unwrap() };
+    let reduction = machine.reduce(&study).unwrap();
+    let (mut count, mut squares) = (0.0, [0.0, 0.0]);
+    let report = machine.run_up(&study, &reduction, |sample| {
+        // After the start from rest has decayed.
+        if sample.state.time > 1.0 {
+            count += 1.0;
+            squares[0] += sample.channels[0].powi(2);
+            squares[1] += sample.channels[1].powi(2);
+        }
+        ControlFlow::Continue(())
+    });
+    assert_eq!(report.end, End::Complete);
+    let (stiffness, hz, zeta) = (2e6, f64::sqrt(2e6 / 4.8) / TAU, 0.02);
+    let density = 36.0 / 250.0;
+    let expected = density * PI * hz / (4.0 * zeta) / (stiffness * stiffness);
+    let by_chance = 1.0 / (TAU * zeta * hz * 200.0).sqrt();
+    agree::relative("mean square under a random force", squares[1] / count, expected, 3.0 * by_chance);
+    assert_eq!(squares[0], 0.0);
+}
+
 /// Jeffcott rotor with internal (rotating) damping: m z̈ + (c_e + c_i) ż + (k − jΩ c_i) z = F,
 /// z = u_x + j u_y, c_i = η k. From rest z = z∞ (1 + (s₂ e^{s₁t} − s₁ e^{s₂t})/(s₁ − s₂)),
 /// z∞ = F/(k − jΩ c_i), s₁ and s₂ the roots. Far above the stability threshold speed the forward whirl grows.
@@ -211,8 +240,8 @@ fn unstable_forward_whirl_due_to_internal_damping() {
     (damping[0][0], damping[1][1]) = (external, external);
     let (a, b, stiffness) = (Anchor::node(4), Anchor::GROUND, [[0.0; 6]; 6]);
     model.bushings.push(Bushing { name: "external_damper".into(), a, b, stiffness, damping });
-    let history = vec![[0.0, 1.0], [10.0, 1.0]];
-    model.loads.push(Load { name: "step".into(), at: a, force: [force, 0.0, 0.0, 0.0, 0.0, 0.0], history });
+    let factor = LoadFactor::Table(vec![[0.0, 1.0], [10.0, 1.0]]);
+    model.loads.push(Load { name: "step".into(), at: a, force: [force, 0.0, 0.0, 0.0, 0.0, 0.0], factor });
     for k in 0..2 {
         let mut direction = [0.0; 6];
         direction[k] = 1.0;

@@ -30,7 +30,7 @@ fn rows(speeds: &[f64], matrices: impl Fn(f64) -> [[[f64; 6]; 6]; 2]) -> Vec<Lin
 }
 
 fn site(node: usize, name: &str, table: Vec<LinearBearingRow>) -> BearingSite {
-    let bearing = Bearing::Linear(LinearBearing { table, beyond: Default::default() });
+    let bearing = Bearing::Linear(LinearBearing { table, ..Default::default() });
     BearingSite { name: name.into(), node, housing: Anchor::GROUND, bearing }
 }
 

@@ -10,7 +10,7 @@ use rotordyn::bearing::{Bearing, LinearBearing, LinearBearingRow};
 use rotordyn::element::{Anchor, Joint, ShearCoefficient};
 use rotordyn::linalg::Complex64;
 use rotordyn::model::study::{EquilibriumStudy, UnbalanceStudy};
-use rotordyn::model::{BearingSite, Load, Model, Unbalance};
+use rotordyn::model::{BearingSite, Load, LoadFactor, Model, Unbalance};
 use rotordyn::study::Machine;
 use std::f64::consts::PI;
 
@@ -89,7 +89,7 @@ fn overhung_disc_and_a_side_force() {
         name: "belt".into(),
         at: Anchor::node(10),
         force: [50.0, 0.0, 0.0, 0.0, 0.0, 3.0],
-        history: Vec::new(),
+        factor: LoadFactor::Constant,
     }];
     let found = at_rest(model);
     let p = 8.0 * G;
@@ -126,7 +126,7 @@ fn on_springs(stiffness: [f64; 2], damping: f64) -> Machine {
         name: name.into(),
         node,
         housing: Anchor::GROUND,
-        bearing: Bearing::Linear(LinearBearing { table: vec![row.clone()], beyond: Default::default() }),
+        bearing: Bearing::Linear(LinearBearing { table: vec![row.clone()], ..Default::default() }),
     };
     model.bearings = vec![site(0, "A"), site(10, "B")];
     model.unbalances = vec![Unbalance { name: "u".into(), node: 5, magnitude: 2e-4, phase: 0.4 }];

@@ -5,8 +5,9 @@ use serde_json::Value;
 
 const RIG: &str = "models/overhung_rig.toml";
 const JEFFCOTT: &str = "models/jeffcott.toml";
-const COMMANDS: [&str; 23] = [
+const COMMANDS: [&str; 24] = [
     "init",
+    "import",
     "run",
     "check",
     "static",

@@ -14,6 +14,7 @@ mod help;
 mod hit_beside_shaft;
 mod identify;
 mod impact_test;
+mod import;
 mod init;
 mod operational;
 mod order_tracks;

@@ -89,3 +89,125 @@ fn modes_of_a_record_without_a_force() {
     let text = String::from_utf8(wrong.get_output().stderr.clone()).unwrap();
     assert!(text.contains("--orders needs the shaft") && text.contains("--orders zero"), "{text}");
 }
+
+/// A rotor with its disc off the middle, so that the first bending modes whirl apart, at constant speed under random forces.
+const JEFFCOTT: &str = r#"
+[variant.operation]
+remove = ["speed.settle", "speed.ramp", "speed.hold", "speed.to"]
+speed = { profile = "constant", speed = "3000 rpm", duration = "120 s" }
+station.disc = "700 mm"
+load.x = { at = "disc.main", force = "0.2, 0, 0 N", moment = "0, 0.02, 0 N m", band = "2, 240 Hz" }
+load.y = { at = "disc.main", force = "0, 0.2, 0 N", moment = "-0.02, 0, 0 N m", band = "2, 240 Hz" }
+probe.tilt_x = { at = "disc.main", direction = "tx" }
+probe.tilt_y = { at = "disc.main", direction = "ty" }
+"#;
+
+/// Runs a variant `operation` and identifies its modes and those of the linear model; both documents.
+fn in_operation(
+    folder: &Path,
+    model: &str,
+    variant: &str,
+    speed: &str,
+    flags: &[&str],
+) -> [serde_json::Value; 2] {
+    let text = std::fs::read_to_string(model).unwrap() + variant;
+    std::fs::write(folder.join("machine.toml"), text).unwrap();
+    let run = |arguments: &[&str]| {
+        let mut command = rotordyn();
+        json_of(command.current_dir(folder).args(arguments).args(["--no-figures"]))
+    };
+    let of = ["machine.toml", "--variant", "operation"];
+    run(&[&["run-up"][..], &of, &["--out", "run"]].concat());
+    let found = run(&[&["identify", "run/results.h5", "--out", "modes"][..], flags].concat());
+    [found, run(&[&["modal"][..], &of, &["--speed", speed, "--modes", "14", "--out", "linear"]].concat())]
+}
+
+/// Every computed mode of the list is found within the bounds of the issue, turning the same way; nothing else is.
+fn compare(found: &serde_json::Value, linear: &serde_json::Value, expected: &[usize], least_whirl: f64) {
+    let modes = found["modes"].as_array().unwrap();
+    let computed = linear["modal"][0]["modes"].as_array().unwrap();
+    let number = |m: &serde_json::Value, name: &str| m[name].as_f64().unwrap_or(f64::NAN);
+    for m in modes {
+        println!(
+            "{:.4} ± {:.4} Hz, {:.5} ± {:.5}, whirl {}",
+            number(m, "frequency_hz"),
+            number(m, "frequency_error_hz"),
+            number(m, "damping_ratio"),
+            number(m, "damping_ratio_error"),
+            m["whirl"]
+        );
+    }
+    println!("{:#?}", found["warnings"]);
+    assert_eq!(modes.len(), expected.len(), "{:#?}", found["dropped"]);
+    for (mode, &at) in modes.iter().zip(expected) {
+        let own = &computed[at];
+        let (hz, zeta) = (number(own, "frequency_hz"), number(own, "damping_ratio"));
+        println!("computed {hz:.4} Hz, {zeta:.5}, {}", own["label"]);
+        assert!((number(mode, "frequency_hz") / hz - 1.0).abs() < 0.005, "{hz} Hz");
+        assert!((number(mode, "damping_ratio") / zeta - 1.0).abs() < 0.2, "{hz} Hz");
+        let label = own["label"].as_str().unwrap();
+        let way = if label.contains("forward") { 1.0 } else { -1.0 };
+        let whirl = number(mode, "whirl");
+        if label.contains("ward") && whirl.abs() > least_whirl {
+            assert!(whirl * way > 0.0, "{label}: {whirl}");
+        }
+    }
+}
+
+#[test]
+fn modes_of_a_simulated_machine() {
+    let folder = tempfile::tempdir().unwrap();
+    let flags = ["--band", "5 Hz .. 120 Hz"];
+    let [found, linear] = in_operation(folder.path(), "models/jeffcott.toml", JEFFCOTT, "3000 rpm", &flags);
+    // The second mode is torsion, which no probe sees.
+    compare(&found, &linear, &[0, 2], 0.9);
+    let whirl: Vec<f64> =
+        found["modes"].as_array().unwrap().iter().map(|m| m["whirl"].as_f64().unwrap()).collect();
+    assert!(whirl[0] < -0.95 && whirl[1] > 0.95, "{whirl:?}");
+    // The unbalance is the only harmonic.
+    let lines = found["harmonics"]["frequency"].as_array().unwrap();
+    assert!(lines.iter().all(|f| (f.as_f64().unwrap() - 50.0).abs() < 0.1) && !lines.is_empty(), "{lines:?}");
+}
+
+/// The rig on its ball bearings, with unbalance and ball passes, under random forces at disc, pulley and housings.
+const RIG: &str = r#"
+[variant.operation]
+remove = ["speed.settle", "speed.ramp", "speed.hold", "speed.to"]
+study.run_up = { step = "50 us", sample_rate = "1100 Hz", cutoff = "500 Hz" }
+study.orders.max_order = 10
+
+[variant.operation.load]
+disc_x = { at = "disc.main", force = "1, 0, 0 N", band = "2, 520 Hz" }
+disc_y = { at = "disc.main", force = "0, 1, 0 N", band = "2, 520 Hz" }
+disc_twist = { at = "disc.main", moment = "0, 0, 0.1 N m", band = "2, 520 Hz" }
+pulley_x = { at = "disc.pulley", force = "1, 0, 0 N", band = "2, 520 Hz" }
+A_x = { at = "housing.A", force = "1, 0, 0 N", band = "2, 520 Hz" }
+A_y = { at = "housing.A", force = "0, 1, 0 N", band = "2, 520 Hz" }
+B_x = { at = "housing.B", force = "1, 0, 0 N", band = "2, 520 Hz" }
+B_y = { at = "housing.B", force = "0, 1, 0 N", band = "2, 520 Hz" }
+"#;
+
+fn rig_in_operation(speed: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    let variant = format!("{RIG}\n[variant.operation.speed]\n{speed}\n");
+    let flags = ["--band", "5 Hz .. 340 Hz"];
+    let [found, linear] =
+        in_operation(folder.path(), "models/overhung_rig.toml", &variant, "1200 rpm", &flags);
+    assert_eq!(found["warnings"].as_array().map(Vec::len), Some(0));
+    // Without the axial mode, which no probe sees.
+    compare(&found, &linear, &[0, 1, 3, 4, 5, 6, 7, 8], 0.3);
+}
+
+#[test]
+#[ignore = "five minutes of CPU"]
+fn rig_in_operation_at_constant_speed() {
+    rig_in_operation("profile = \"constant\"\nspeed = \"1200 rpm\"\nduration = \"600 s\"");
+}
+
+#[test]
+#[ignore = "five minutes of CPU"]
+fn rig_in_operation_with_a_run_up() {
+    rig_in_operation(
+        "profile = \"ramp\"\nto = \"1200 rpm\"\nsettle = \"1 s\"\nramp = \"10 s\"\nhold = \"589 s\"",
+    );
+}

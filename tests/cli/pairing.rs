@@ -101,7 +101,7 @@ fn studies_beyond_a_table_warn_or_fail() {
     assert!(String::from_utf8(output).unwrap().contains("speed"));
     let mut command = rotordyn();
     command.args(["check", "models/jeffcott.toml", "--set", "bearing.B.speed=\"0, 2500 rpm\""]);
-    command.args(["--set", "bearing.B.beyond_table=\"extrapolate\""]).assert().code(2);
+    command.args(["--set", "bearing.B.beyond_table=\"guess\""]).assert().code(2);
 }
 
 /// Amplitudes |X| of the first probe.

@@ -136,7 +136,7 @@ fn insufficient_fits_give_warnings() {
     };
     // Both housings differ in both planes, and one parameter is free.
     let text = warnings(&[]);
-    assert!(text.contains("does not fit the data"), "{text}");
+    assert!(text.contains("lack-of-fit") && text.contains("does not explain the data"), "{text}");
     let text = warnings(&["--prior", "housing.B.k_x=+- 0.1 %"]);
     assert!(text.contains("prior standard deviations away from the prior mean"), "{text}");
     // No warning if all differing parameters are free.
@@ -146,6 +146,83 @@ fn insufficient_fits_give_warnings() {
     let document = json_of(&mut command);
     assert!(!document["warnings"].to_string().contains("explain"), "{}", document["warnings"]);
     assert_eq!(document["schema"], "rotordyn-results-3");
+}
+
+/// JSON document of `update` of the rig with free parameters and further arguments.
+fn update_of(folder: &Path, free: &str, more: &[&str]) -> serde_json::Value {
+    let mut command = rotordyn();
+    command.args(["update", RIG, "--free", free, "--band", "5 .. 300 Hz"]).args(more);
+    json_of(command.arg("--measured").arg(truth()).arg("--out").arg(folder))
+}
+
+/// Housings that differ along x and y, free along x only: the stiffness along y of both is named with its value.
+#[test]
+fn culprit_of_a_misfit_is_named_with_its_value() {
+    let folder = tempfile::tempdir().unwrap();
+    let document = update_of(folder.path(), "housing.*.k_x", &["--no-figures"]);
+    assert_eq!(document["parameters"][0]["identifiability"], "poor fit", "{}", document["parameters"]);
+    assert_eq!(document["fit"], "not explained");
+    assert_eq!(document["standard_errors_valid"], false);
+    let probability = |of: &serde_json::Value| of["chi_squared_probability"].as_f64().unwrap();
+    assert!(probability(&document) < 0.01, "{document}");
+    let culprit = &document["culprits"][0];
+    assert_eq!(culprit["name"], "housing.*.k_y", "{}", document["culprits"]);
+    assert!(culprit["explains"] == true && probability(culprit) > 0.01, "{culprit}");
+    assert!((culprit["value"].as_f64().unwrap() / 2.1e7 - 1.0).abs() < 0.01, "{culprit}");
+    let left = culprit["chi_squared"].as_f64().unwrap();
+    let gain = document["chi_squared"].as_f64().unwrap() - left;
+    assert!((culprit["chi_squared_gain"].as_f64().unwrap() / gain - 1.0).abs() < 1e-9, "{culprit}");
+    let warnings = document["warnings"].as_array().unwrap();
+    let warning = warnings.iter().find(|w| w["code"] == "lack-of-fit").unwrap().to_string();
+    for part in ["degrees of freedom", "probability", "housing.*.k_y"] {
+        assert!(warning.contains(part), "{part} is not in {warning}");
+    }
+}
+
+/// A plausible fit has no culprits; its profiles have intervals about the true value, and figures.
+#[test]
+fn profiles_of_a_plausible_fit() {
+    let folder = tempfile::tempdir().unwrap();
+    let free = "housing.*.k_x,housing.*.k_y";
+    let document = update_of(folder.path(), free, &["--profile", "housing.*.k_x,housing.*.k_y"]);
+    assert!(document["warnings"].as_array().unwrap().is_empty(), "{}", document["warnings"]);
+    assert!(document.get("culprits").is_none() && document["fit"] != "not explained");
+    for (k, truth) in [(0, 4.2e6), (1, 2.1e7)] {
+        let profile = &document["profiles"][k];
+        let numbers = |key: &str| -> Vec<f64> {
+            profile[key].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+        };
+        let (half, wide) = (numbers("interval_68"), numbers("interval_95"));
+        assert!(wide[0] < half[0] && half[0] < truth && truth < half[1] && half[1] < wide[1], "{profile}");
+        // The data depend nearly linearly on the housings: the interval is that of two standard errors.
+        let error = document["parameters"][k]["standard_error"].as_f64().unwrap();
+        assert!(((half[1] - half[0]) / (2.0 * error) - 1.0).abs() < 0.1, "{profile} {error}");
+        let chi_squared = numbers("chi_squared");
+        assert_eq!(chi_squared.len(), numbers("value").len());
+        assert!(chi_squared.iter().all(|v| *v >= profile["least_chi_squared"].as_f64().unwrap()));
+    }
+    let figures = std::fs::read_dir(folder.path()).unwrap().map(|f| f.unwrap().file_name());
+    let profiles: Vec<_> = figures.filter(|f| f.to_string_lossy().starts_with("update_profile_")).collect();
+    assert_eq!(profiles.len(), 4, "{profiles:?}");
+    copy_figures(folder.path(), "update_profile");
+    let stderr = update_refused("housing.A.k_x", &["--profile", "housing.B.k_x"]);
+    assert!(stderr.contains("--profile takes the names given to --free"), "{stderr}");
+}
+
+/// A group states the combination that the data determine and the one they do not.
+#[test]
+fn inseparable_parameters_are_a_group() {
+    let folder = tempfile::tempdir().unwrap();
+    let free = "material.steel.young,shaft.section.0.outer_diameter,housing.*.k_x,housing.*.k_y";
+    let document = update_of(folder.path(), free, &["--no-figures"]);
+    for group in document["groups"].as_array().unwrap() {
+        let error = |of: &str| group[of]["standard_error"].as_f64().unwrap();
+        assert!(error("determined") < error("undetermined"), "{group}");
+        let members = group["members"].as_array().unwrap();
+        assert!(
+            members.len() > 1 && members.len() == group["determined"]["weights"].as_array().unwrap().len()
+        );
+    }
 }
 
 /// Sensors offset from a housing's centre are assigned to the same places of the model.

@@ -20,6 +20,7 @@ pub fn element(length: f64, left: f64, right: f64) -> ShaftElement {
         torque: 0.0,
         proportional_damping: [0.0, 0.0],
         internal_viscous: 0.0,
+        layers: Vec::new(),
     }
 }
 

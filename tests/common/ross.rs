@@ -56,6 +56,7 @@ pub fn element(value: &Value, steel: &Value) -> ShaftElement {
         torque: at("torque").unwrap_or(0.0),
         proportional_damping: [at("alpha").unwrap_or(0.0), at("beta").unwrap_or(0.0)],
         internal_viscous: 0.0,
+        layers: Vec::new(),
     }
 }
 
@@ -83,7 +84,7 @@ fn bearing(value: &Value, k: usize) -> BearingSite {
         name: format!("bearing {k}"),
         node: index(&value["n"]),
         housing: Anchor::GROUND,
-        bearing: Bearing::Linear(LinearBearing { table: rows.collect(), beyond: Default::default() }),
+        bearing: Bearing::Linear(LinearBearing { table: rows.collect(), ..Default::default() }),
     }
 }
 

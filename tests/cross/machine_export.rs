@@ -28,6 +28,7 @@ fn rig() -> Model {
         torque: 0.0,
         proportional_damping: [0.0; 2],
         internal_viscous: 0.0,
+        layers: Vec::new(),
     };
     let disc = |name: &str, node, mass, polar_inertia, diametral_inertia, size: [f64; 2]| Disc {
         name: name.into(),
@@ -41,7 +42,7 @@ fn rig() -> Model {
     let housing = |name: &str, z| RigidBody {
         name: name.into(),
         position: [0.0, 0.0, z],
-        mass: 1.5,
+        mass: [1.5; 3],
         inertia: [[3e-3, 0.0, 0.0], [0.0, 3e-3, 0.0], [0.0, 0.0, 3e-3]],
     };
     let site = |name: &str, node, body| BearingSite {

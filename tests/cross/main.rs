@@ -17,4 +17,5 @@ mod parry_masses;
 mod parry_overlaps;
 mod rapier_cage;
 mod rapier_integration;
+mod ross_import;
 mod text_files;

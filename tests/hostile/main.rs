@@ -8,6 +8,7 @@ mod hdf5_results;
 mod matlab;
 mod matlab_73;
 mod models;
+mod rotors;
 mod tables;
 mod universal;
 mod wav_files;
@@ -43,9 +44,12 @@ fn run_once(arguments: &[&str]) -> Outcome {
     let folder = tempfile::tempdir().unwrap();
     let errors = folder.path().join("errors");
     let mut command = Command::new(env!("CARGO_BIN_EXE_rotordyn"));
-    command.args(arguments).args(["--quiet", "--no-figures", "--threads", "1"]);
-    // Analyses of a stored run go to its folder.
-    if !["spectrogram", "orders"].contains(&arguments[0]) {
+    command.args(arguments).args(["--quiet", "--threads", "1"]);
+    if arguments[0] != "import" {
+        command.arg("--no-figures");
+    }
+    // Analyses of a stored run go to its folder, and an import to a file.
+    if !["spectrogram", "orders", "import"].contains(&arguments[0]) {
         command.arg("--out").arg(folder.path().join("out"));
     }
     command.current_dir(folder.path());

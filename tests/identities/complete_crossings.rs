@@ -68,7 +68,7 @@ fn bearing(r: &mut Random, top: f64) -> Bearing {
             LinearBearingRow { speed: top * f64::from(row) / 3.0, stiffness: scale(&k), damping: scale(&c) }
         })
         .collect();
-    Bearing::Linear(LinearBearing { table, beyond: Default::default() })
+    Bearing::Linear(LinearBearing { table, ..Default::default() })
 }
 
 /// A shaft with discs on two bearings, on ground or on a sprung housing.
@@ -114,7 +114,7 @@ fn machine(r: &mut Random) -> (Model, f64) {
             let name = format!("housing {k}");
             let position = [0.0, 0.0, model.node_z[node]];
             let inertia = [[j, 0.0, 0.0], [0.0, j, 0.0], [0.0, 0.0, j]];
-            model.bodies.push(RigidBody { name: name.clone(), position, mass, inertia });
+            model.bodies.push(RigidBody { name: name.clone(), position, mass: [mass; 3], inertia });
             housing = Anchor::node(body);
             let [stiffness, damping] = plane_matrices(r);
             let locked = [false, false, true, true, true, true];
@@ -333,7 +333,7 @@ fn a_mode_that_becomes_oscillatory_is_no_crossing() {
     }
     model.discs.push(disc(0, mass, 1.0, 0.6));
     let table = vec![row(0.0, 1.6), row(150.0, 1.2), row(300.0, 0.01), row(1000.0, 0.01)];
-    let bearing = Bearing::Linear(LinearBearing { table, beyond: Default::default() });
+    let bearing = Bearing::Linear(LinearBearing { table, ..Default::default() });
     model.bearings.push(BearingSite { name: "b".into(), node: 0, housing: Anchor::GROUND, bearing });
     for node in 0..2 {
         let locked = [node == 1, node == 1, false, true, true, true];

@@ -36,13 +36,13 @@ prop_compose! {
         model.bodies.push(RigidBody {
             name: "block".into(),
             position: [at[0], at[1], at[2] + 0.1],
-            mass,
+            mass: [mass; 3],
             inertia: [[j, 0.1 * j, 0.0], [0.1 * j, 1.2 * j, 0.05 * j], [0.0, 0.05 * j, 0.9 * j]],
         });
         model.masses.push(PointMass {
             name: "sensor".into(),
             anchor: Anchor { node: Some(nodes), offset: [0.1, -0.2, 0.05] },
-            mass: 0.1,
+            mass: [0.1; 3],
         });
         // K = Aᵀ A is a legal stiffness, full and positive.
         let a = DMatrix::from_row_slice(6, 6, &stiffness);
@@ -68,7 +68,7 @@ fn isotropic(node: usize, stiffness: f64) -> BearingSite {
         name: "bearing".into(),
         node,
         housing: Anchor::GROUND,
-        bearing: Bearing::Linear(LinearBearing { table: vec![row], beyond: Default::default() }),
+        bearing: Bearing::Linear(LinearBearing { table: vec![row], ..Default::default() }),
     }
 }
 
@@ -103,8 +103,8 @@ proptest! {
         };
         let total: f64 = model.shaft.iter().map(|e| e.mass()).sum::<f64>()
             + model.discs.iter().map(|d| d.mass).sum::<f64>()
-            + model.bodies.iter().map(|b| b.mass).sum::<f64>()
-            + model.masses.iter().map(|m| m.mass).sum::<f64>();
+            + model.bodies.iter().map(|b| b.mass[0]).sum::<f64>()
+            + model.masses.iter().map(|m| m.mass[0]).sum::<f64>();
         for motion in 0..6 {
             let mut q = vec![0.0; 6 * nodes];
             for node in 0..nodes {

@@ -36,6 +36,9 @@ fn skeleton(path: &str, condition: &str) -> &'static str {
             "station = \"B\"\nmass = \"5 kg\"\ninertia = \"0.02 kg m^2\"\nk_x = \"1e7 N/m\"\nk_y = \"1e7 N/m\"\n\
              k_z = \"1e7 N/m\"\nk_tilt = \"1e5 N m/rad\"\nk_spin = \"1e5 N m/rad\""
         }
+        "shaft.layer" => {
+            "from = \"50 mm\"\nlength = \"100 mm\"\nouter_diameter = \"30 mm\"\ninner_diameter = \"25 mm\""
+        }
         "sensor" => "at = \"station.C\"\nmass = \"0.01 kg\"",
         "bushing" => "between = [\"station.C\", \"ground\"]\nk_y = \"1e6 N/m\"",
         "joint" if condition.contains("kind") => "between = [\"station.C\", \"ground\"]",

@@ -2,7 +2,7 @@
 
 use rotordyn::bearing::{Bearing, Cage};
 use rotordyn::model::study::Integrator;
-use rotordyn::model::{self, Drive, Kind, Model, Options, Quantity, SpeedProfile};
+use rotordyn::model::{self, Drive, Kind, LoadFactor, Model, Options, Quantity, SpeedProfile};
 
 const HEAD: &str = r#"
 [model]
@@ -154,7 +154,7 @@ mass = "20 g"
     assert_eq!(housing.node, Some(7));
     assert!((housing.offset[1] - 0.05).abs() < 1e-15 && (housing.offset[2] + 0.01).abs() < 1e-15);
     assert_eq!((model.bushings[0].stiffness[3][3], model.bushings[0].stiffness[4][4]), (1e3, 2e3));
-    assert_eq!((model.masses[0].anchor.node, model.masses[0].mass), (Some(7), 0.02));
+    assert_eq!((model.masses[0].anchor.node, model.masses[0].mass), (Some(7), [0.02; 3]));
 }
 
 #[test]
@@ -185,13 +185,41 @@ ratio = ["1 %", "0.5 %"]
 "#;
     let model = load(text);
     assert_eq!(model.loads[0].force, [0.0, -10.0, 0.0, 1.0, 0.0, 0.0]);
-    assert_eq!(model.loads[0].history, [[0.0, 0.0], [1e-3, 1.0], [2e-3, 0.0]]);
+    assert_eq!(model.loads[0].factor, LoadFactor::Table(vec![[0.0, 0.0], [1e-3, 1.0], [2e-3, 0.0]]));
     let torque = Drive::Torque { node: 0, table: vec![[0.0, 10.0], [100.0, 5.0]], drag: 0.01 };
     assert_eq!(model.drive, torque);
     let SpeedProfile::Table { points } = &model.profile else { panic!() };
     assert!((points[1][1] - points[2][1]).abs() < 1e-12);
     assert_eq!(model.damping.proportional, [0.5, 1e-5]);
     assert_eq!(model.damping.modal, [[20.0, 0.01], [50.0, 0.005]]);
+}
+
+/// Loads have random courses of their own, unless they have the same seed.
+#[test]
+fn random_loads() {
+    let load_of =
+        |name: &str, more: &str| format!("[load.{name}]\nat = \"M\"\nforce = \"1, 0, 0 N\"\n{more}\n");
+    let band = "band = \"5, 500 Hz\"";
+    let seeded = format!("{band}\nseed = 3");
+    let text =
+        [("a", band), ("b", band), ("c", &seeded), ("d", &seeded)].map(|(name, more)| load_of(name, more));
+    let model = load(&text.concat());
+    let [a, b, c, d] = [0, 1, 2, 3].map(|k| model.loads[k].factor.at(0.1));
+    assert!(a != b && a != c && c == d, "{a} {b} {c} {d}");
+    assert!(model.loads.iter().all(|load| matches!(load.factor, LoadFactor::Random(_))));
+    for (more, expected) in [
+        ("band = \"5 Hz\"", "no frequency band"),
+        ("band = \"500, 5 Hz\"", "no frequency band"),
+        (
+            "band = \"5, 500 Hz\"\ntime = \"0, 1 s\"\nfactor = [0, 1]",
+            "a random course (band) and one over time",
+        ),
+        ("seed = 3", "band is missing"),
+    ] {
+        let text = format!("{HEAD}{}", load_of("a", more));
+        let found = model::load("test.toml", text, &Options::default()).unwrap_err();
+        assert!(found.to_string().contains(expected), "{more}: {found}");
+    }
 }
 
 #[test]

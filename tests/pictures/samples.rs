@@ -414,6 +414,7 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
                 .enumerate()
                 .map(|(k, hz)| (*hz, k, if k % 2 == 0 { PoleStability::Stable } else { PoleStability::New }))
                 .collect(),
+            curves_name: name.clone(),
             hz: x.clone(),
             curves: vec![y.clone(), x.clone()],
             selected: vec![first(1), first(2)],

@@ -11,7 +11,7 @@ use rotordyn::assembly::{Assembly, LinearSystem};
 use rotordyn::element::Anchor;
 use rotordyn::linalg::Complex64;
 use rotordyn::model::study::Integrator;
-use rotordyn::model::{Load, Quantity, SpeedProfile};
+use rotordyn::model::{Load, LoadFactor, Quantity, SpeedProfile};
 use rotordyn::transient::reduction::reduce;
 use rotordyn::transient::run::{Settings, run};
 
@@ -61,7 +61,7 @@ fn small_hit_gives_the_linear_frf() {
         name: "hammer".into(),
         at: disc,
         force: direction.map(|d| 0.02 * d),
-        history: vec![[0.0, 0.0], [PULSE, 1.0], [2.0 * PULSE, 0.0]],
+        factor: LoadFactor::Table(vec![[0.0, 0.0], [PULSE, 1.0], [2.0 * PULSE, 0.0]]),
     });
     let assembly = Assembly::new(&model).unwrap();
     let start = equilibrium(&model, &assembly, 0.0, CageTreatment::FixedAngle, None).unwrap();

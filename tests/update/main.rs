@@ -5,4 +5,5 @@ mod rig;
 
 mod double_eigenvalues;
 mod frf_fit;
+mod misfit_study;
 mod rig_as_truth;

@@ -33,6 +33,17 @@ pub const CASES: &[Case] = &[
             program::codes(folder.path(), &[&arguments[..], &OUT].concat(), 0)
         })
     }),
+    (Code::LackOfFit, || {
+        let folder = two_discs();
+        store_modes(folder.path(), "own", "bearing.A.k_xx=5e6 N/m");
+        store_modes(folder.path(), "soft", "material.steel.young=190 GPa");
+        // The stiffness that differs, and one that cannot stand for a softer shaft.
+        ["own", "soft"].map(|measured| {
+            let file = format!("{measured}/results.h5");
+            let arguments = ["update", "machine.toml", "--measured", &file, "--free", "bearing.A.k_xx"];
+            program::codes(folder.path(), &[&arguments[..], &OUT].concat(), 0)
+        })
+    }),
     (Code::Identification, || {
         let folder = program::folder(&[]);
         let frfs = [1, 2].map(frf);
@@ -55,6 +66,12 @@ pub const CASES: &[Case] = &[
         drop(file);
         ["plain.h5", "spoiled.h5"]
             .map(|file| program::codes(folder.path(), &[&["signal", file][..], &OUT].concat(), 0))
+    }),
+    (Code::NotImported, || {
+        let text = include_str!("../data/ross/rotors/example_rotor.toml").to_string();
+        let spoiled = text.replacen("gyroscopic = true", "gyroscopic = false", 1);
+        let folder = program::folder(&[("plain.toml", text), ("spoiled.toml", spoiled)]);
+        ["plain.toml", "spoiled.toml"].map(|file| program::codes(folder.path(), &["import", file], 0))
     }),
     (Code::SignalAnalysis, || {
         let sample = |k: u32| format!("{:.5},{:.6}\n", f64::from(k) / 5000.0, (0.3 * f64::from(k)).sin());

@@ -130,6 +130,8 @@ pub enum BeyondTable {
     Hold,
     /// An error.
     Refuse,
+    /// The curves go on along their last slopes, without a warning.
+    Extrapolate,
 }
 
 /// How drawings show a bearing.
@@ -174,6 +176,11 @@ pub trait BearingElement: Debug + Send + Sync {
     /// Tangents at a speed \[rad/s\] given those at standstill; other than these only if they are tabulated over speed.
     fn tangent_at(&self, _speed: f64, standstill: SiteTangent) -> SiteTangent {
         standstill
+    }
+
+    /// Tangents of a linear bearing at a speed for motions of one frequency \[rad/s\]; `None` if they do not depend on it.
+    fn tangent_at_whirl(&self, _speed: f64, _whirl: f64) -> Option<SiteTangent> {
+        None
     }
 
     /// Axial preload of the centred bearing at a speed Ω \[rad/s\].

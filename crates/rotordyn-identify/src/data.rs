@@ -266,12 +266,18 @@ pub(super) fn noise_rms(frf: &[Complex64]) -> f64 {
 
 /// Power of jω of every FRF: as set, else by its unit, else accelerance, usual in impact tests.
 fn powers(frfs: &FrfMatrix, settings: &Settings) -> Vec<Vec<i32>> {
-    let power = |unit: &String| match settings.quantity.or_else(|| quantity_of(unit)) {
-        Some(Quantity::Displacement) => 0,
-        Some(Quantity::Velocity) => 1,
-        Some(Quantity::Acceleration) | None => 2,
-    };
+    let quantity = |unit: &String| settings.quantity.or_else(|| quantity_of(unit));
+    let power = |unit: &String| derivatives(quantity(unit).unwrap_or(Quantity::Acceleration));
     frfs.units.iter().map(|row| row.iter().map(power).collect()).collect()
+}
+
+/// Number of time derivatives from the displacement.
+pub(super) fn derivatives(quantity: Quantity) -> i32 {
+    match quantity {
+        Quantity::Displacement => 0,
+        Quantity::Velocity => 1,
+        Quantity::Acceleration => 2,
+    }
 }
 
 /// Quantity of an FRF by its SI unit: "(m/s^2)/N" is an acceleration (accelerance), "m/N" a displacement

@@ -25,6 +25,7 @@ pub mod npy;
 pub mod operational_modes;
 #[cfg(feature = "hdf5")]
 pub mod results_file;
+pub mod ross;
 pub mod run_export;
 pub mod run_identity;
 pub mod saved_results;

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use crate::error::Error;
 use crate::measured::mapping::direction;
 use rotordyn_core::element::Anchor;
-use rotordyn_core::model::{Model, Probe};
+use rotordyn_core::model::Model;
 use rotordyn_core::results::{FrfResult, History, ModalResult};
 use rotordyn_core::series::SeriesError;
 use rotordyn_core::study::Machine;
@@ -28,23 +28,23 @@ pub fn run_records(history: &History, model: &Model) -> Result<MeasuredData, Ser
     let record = |name: &str, unit: &str, values: Vec<f64>| {
         Record::new(name, Kind::Time, axis.clone(), Values::Real(values), unit)
     };
-    let channel = |c: &rotordyn_core::results::HistoryChannel| -> Result<Record, SeriesError> {
-        // A probe beside its station has no point of its own: one on the shaft would be another place.
-        let is_eccentric = |p: &Probe| p.name == c.name && p.at.offset != [0.0; 3];
-        let response = match model.probes.iter().any(is_eccentric) {
-            true => Dof::NONE,
-            false => {
+    let mut geometry = geometry(model);
+    let mut offset_points = Vec::new();
+    let mut records = Vec::new();
+    for c in &history.channels {
+        let response = match model.probes.iter().find(|p| p.name == c.name) {
+            Some(probe) => point_of(&probe.at, &probe.direction, model, &mut geometry, &mut offset_points),
+            None => {
                 Dof::new(point_number(model, &c.station).unwrap_or(0), direction(&c.direction).unwrap_or(0))
             }
         };
-        Ok(Record { response, ..record(&c.name, &c.unit, c.values.all()?.into_owned()) })
-    };
-    let mut records = history.channels.iter().map(channel).collect::<Result<Vec<Record>, _>>()?;
+        records.push(Record { response, ..record(&c.name, &c.unit, c.values.all()?.into_owned()) });
+    }
     records.push(record("shaft_angle", "rad", history.angle.all()?.into_owned()));
     let rpm = history.speed.all()?.iter().map(|speed| speed * 60.0 / TAU).collect();
     records.push(record("shaft_speed", "rpm", rpm));
     let title = model.title.clone();
-    Ok(MeasuredData { title, records, geometry: geometry(model), ..MeasuredData::default() })
+    Ok(MeasuredData { title, records, geometry, ..MeasuredData::default() })
 }
 
 /// Point number of a station, bearing or body; the prefixes of `housing.A`, `body.block`, `disc.main` and
@@ -79,8 +79,8 @@ pub fn frf_records(found: &FrfResult, machine: &Machine) -> MeasuredData {
             let values = Values::Complex(found.frf.values[r][e].clone());
             let name = format!("{}/{}", probe.name, excitation.name);
             records.push(Record {
-                response: frf_dof(&probe.at, &probe.direction, model, &mut geometry, &mut offset_points),
-                reference: frf_dof(
+                response: point_of(&probe.at, &probe.direction, model, &mut geometry, &mut offset_points),
+                reference: point_of(
                     &excitation.at,
                     &excitation.direction,
                     model,
@@ -95,9 +95,9 @@ pub fn frf_records(found: &FrfResult, machine: &Machine) -> MeasuredData {
     MeasuredData { title: model.title.clone(), records, geometry, ..MeasuredData::default() }
 }
 
-/// Response or excitation DOF of an FRF. A location at an offset from a node gets its own point after those
+/// Point and direction of a probe or an excitation. A location at an offset from a node gets its own point after those
 /// of the model.
-fn frf_dof(
+fn point_of(
     at: &Anchor,
     weights: &[f64; 6],
     model: &Model,

@@ -21,6 +21,7 @@ fn document(found: &OperationalModes) -> Document<'_> {
         .texts("references", found.references.iter().map(|k| found.dofs[*k].to_string()))
         .numbers("band_hz", "Hz", found.band.to_vec())
         .number("duration", "s", found.duration)
+        .number("left_out", "s", found.left_out)
         .integer("blocks", found.blocks)
         .number("block_length", "s", found.block_length)
         .number("longest_lag", "s", found.longest_lag)

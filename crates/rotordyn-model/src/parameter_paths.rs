@@ -41,6 +41,39 @@ pub fn resolve_parameter_path(
     Ok(found)
 }
 
+/// All single numbers and quantities of a file with their paths, with variant and settings applied.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn all_values(text: &[u8], options: &Options) -> Result<Vec<ParameterValue>, String> {
+    let document = Document::read("model", text, options).map_err(|errors| errors.to_string())?;
+    let mut found = Vec::new();
+    let root = Node { span: 0..0, value: Value::Table(document.root) };
+    collect_all(&root, &mut Vec::new(), &mut found);
+    Ok(found)
+}
+
+fn collect_all(node: &Node, at: &mut Vec<String>, found: &mut Vec<ParameterValue>) {
+    let mut into = |name: &str, node: &Node| {
+        at.push(name.to_string());
+        collect_all(node, at, found);
+        at.pop();
+    };
+    let (text, quoted) = match &node.value {
+        Value::Table(table) => {
+            return table.entries().iter().for_each(|entry| into(entry.written_key(), &entry.node));
+        }
+        Value::List(items) => {
+            return items.iter().enumerate().for_each(|(k, item)| into(&k.to_string(), item));
+        }
+        Value::Text(text) if leading_number(text.trim()).is_some() => (text.clone(), true),
+        Value::Integer(i) => (i.to_string(), false),
+        Value::Float(f) => (f.to_string(), false),
+        _ => return,
+    };
+    found.push(ParameterValue { path: at.join("."), text, quoted });
+}
+
 fn collect_values(
     node: &Node,
     parts: &[&str],
@@ -170,6 +203,27 @@ mod tests {
             resolve_parameter_path(FILE.as_bytes(), &soft, "housing.B.k_x").unwrap()[0].text,
             "1e6 N/m"
         );
+    }
+
+    #[test]
+    fn all_values_have_the_paths_that_find_them() {
+        let soft = Options { variant: Some("soft".into()), ..Options::default() };
+        let found = all_values(FILE.as_bytes(), &soft).unwrap();
+        let listed: Vec<(&str, &str)> = found.iter().map(|v| (v.path.as_str(), v.text.as_str())).collect();
+        let expected = [
+            ("gains.0", "1"),
+            ("gains.1", "2"),
+            ("housing.A.k_x", "6e6 N/m"),
+            ("housing.B.k_x", "1e6 N/m"),
+            ("housing.B.k_y", "7e6 N/m"),
+        ];
+        assert_eq!(listed, expected);
+        for value in &found {
+            assert_eq!(
+                resolve_parameter_path(FILE.as_bytes(), &soft, &value.path).unwrap(),
+                std::slice::from_ref(value)
+            );
+        }
     }
 
     #[test]

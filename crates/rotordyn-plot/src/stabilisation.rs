@@ -24,7 +24,9 @@ pub struct Stabilisation {
     pub note: String,
     /// Frequency \[Hz\], model order and stability class of every pole.
     pub poles: Vec<(f64, usize, PoleStability)>,
-    /// Frequencies \[Hz\] and values of the mode indicator curves (any unit), the largest first.
+    /// Name of the curves behind the poles, such as "mode indicator".
+    pub curves_name: String,
+    /// Frequencies \[Hz\] and values of these curves (any unit), the largest first.
     pub hz: Vec<f64>,
     pub curves: Vec<Vec<f64>>,
     /// Frequencies \[Hz\] of the selected modes.
@@ -50,7 +52,7 @@ pub fn draw(data: &Stabilisation) -> Svg {
             Entry::marker(name, *marker, mark(*color, *state == PoleStability::Stable))
         })
         .collect();
-    entries.push(Entry::line("mode indicator", Style::stroke(PALE, 1.2)));
+    entries.push(Entry::line(&data.curves_name, Style::stroke(PALE, 1.2)));
     entries.push(Entry::line("selected mode", Style::stroke(RED, 0.9).dashed(Dash::Short)));
     let (mut svg, top) = page_heading(WIDTH, LEFT, &data.title, &data.note, &entries);
     let frame = Frame { x: LEFT, y: top + 30.0, w: WIDTH - LEFT - RIGHT, h: 400.0 };

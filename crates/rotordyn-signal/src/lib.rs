@@ -16,6 +16,7 @@
 //! | [`poincare`] | Poincaré section (stroboscopic sampling) by a phase, clusters of its points |
 //! | [`motion_classification`] | classification of a motion: periodic, quasi-periodic or chaotic (0–1 test) |
 //! | [`lyapunov`] | largest Lyapunov exponent from the growth of a perturbation |
+//! | [`band_noise`] | band-limited Gaussian random function of time |
 //! | [`statistics`] | RMS, peak, crest factor, skewness, kurtosis |
 //! | [`impact`] | impact (hammer) test: detection and quality of hits, FRF estimators H1, H2, Hv, coherence, windows |
 //! | [`envelope`] | Hilbert transform: analytic signal, envelope, (squared) envelope spectrum of a band |
@@ -37,6 +38,7 @@
 //! infinity.
 
 mod background;
+pub mod band_noise;
 pub mod bearing_lines;
 pub mod cepstrum;
 pub mod cyclic;
@@ -46,6 +48,7 @@ pub mod envelope;
 pub mod error;
 pub mod filter;
 pub mod filter_bank;
+mod gaussian;
 pub mod grading;
 pub mod impact;
 pub mod jerk;

@@ -141,7 +141,7 @@ fn is_device(name: &str) -> bool {
 }
 
 /// FNV-1a hash: the same on every system and in every version.
-fn hash(text: &str) -> u32 {
+pub fn hash(text: &str) -> u32 {
     text.bytes().fold(0x811c_9dc5, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193))
 }
 

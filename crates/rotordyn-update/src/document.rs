@@ -1,16 +1,30 @@
 //! What is written of a model update to files.
 
 use super::correlation::Correlation;
+use super::culprits::{Culprit, CulpritSearch};
+use super::goodness::FitQuality;
+use super::groups::{Combination, Group};
 use super::parameter::FreeParameter;
+use super::profile::Profile;
 use super::{Outcome, Update};
-use rotordyn_core::document::{Array, Document, Rows, in_json, named};
+use rotordyn_core::document::{Array, Document, Names, Rows, in_json, named};
+
+/// What was found of the parameters after the fit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Findings {
+    pub groups: Vec<Group>,
+    /// If the model does not explain the data.
+    pub culprits: Option<CulpritSearch>,
+    pub profiles: Vec<Profile>,
+}
 
 impl Update {
-    /// Parameters with their identifiability, and the model before and after; `frf_difference_db`: of the FRFs before
-    /// and after, if they were fitted.
+    /// Parameters with their identifiability, what was `more` found of them, and the model before and after;
+    /// `frf_difference_db`: of the FRFs before and after, if they were fitted.
     pub fn document<'a>(
         &self,
         parameters: &[FreeParameter],
+        more: &Findings,
         [before, after]: [&Correlation<'a>; 2],
         frf_difference_db: Option<[f64; 2]>,
     ) -> Document<'a> {
@@ -23,15 +37,96 @@ impl Update {
             .numbers(of_parameters("singular_values"), "1", found.singular_values.clone())
             .array(of_parameters("singular_vectors"), square(&found.directions))
             .array(of_parameters("correlation"), square(&found.correlation))
-            .number(of_parameters("chi_squared"), "1", found.chi_squared)
-            .number(of_parameters("degrees_of_freedom"), "1", found.degrees_of_freedom)
+            .number(of_parameters("chi_squared"), "1", self.goodness.chi_squared)
+            .number(of_parameters("degrees_of_freedom"), "1", self.goodness.degrees_of_freedom)
+            .number(of_parameters("chi_squared_probability"), "1", self.goodness.probability())
+            .text(of_parameters("fit"), self.goodness.quality().label())
+            .number(of_parameters("standard_error_scale"), "1", found.inflation)
+            .flag(of_parameters("standard_errors_valid"), self.goodness.quality() != FitQuality::NotExplained)
             .flag(of_parameters("converged"), self.converged)
             .integer(of_parameters("iterations"), self.iterations.len() - 1)
             .optional(in_json("frf_db_before"), "dB", frf_difference_db.map(|[before, _]| before))
             .optional(in_json("frf_db_after"), "dB", frf_difference_db.map(|[_, after]| after))
+            .and(groups_document(&more.groups, parameters, &of_parameters))
+            .and(culprits_document(more.culprits.as_ref()))
+            .and(profiles_document(&more.profiles, parameters, &of_parameters))
             .group("before", before.document())
             .group("after", after.document())
     }
+}
+
+fn groups_document<'a>(
+    groups: &[Group],
+    parameters: &[FreeParameter],
+    place: &dyn Fn(&str) -> Names,
+) -> Document<'a> {
+    let combination = |found: &Combination| {
+        Document::new().numbers("weights", "1", found.weights.clone()).number(
+            "standard_error",
+            "1",
+            found.error,
+        )
+    };
+    let one = |(k, group): (usize, &Group)| {
+        let members = group.members.iter().map(|&j| &parameters[j].name);
+        let content = Document::new()
+            .texts("members", members)
+            .group("determined", combination(&group.determined))
+            .group("undetermined", combination(&group.undetermined));
+        (format!("group_{}", k + 1), content)
+    };
+    Document::new().groups(place("groups"), "name", groups.iter().enumerate().map(one))
+}
+
+fn culprits_document<'a>(found: Option<&CulpritSearch>) -> Document<'a> {
+    let Some(found) = found else { return Document::new() };
+    Document::new()
+        .table("culprits", culprit_rows(&found.culprits))
+        .table("culprits_together", culprit_rows(&found.together))
+        .integer("culprit_candidates", found.candidates)
+        .integer("culprit_candidates_with_influence", found.with_influence)
+}
+
+fn culprit_rows<'a, 'r>(rows: &'r [Culprit]) -> Rows<'a, 'r, Culprit> {
+    let unit = "in the parameter's unit";
+    Rows::of(rows)
+        .text("name", |c| &c.parameter.name)
+        .lists("paths", |c| c.parameter.numbers.iter().map(|place| place.path.clone()).collect())
+        .text("unit", |c| c.parameter.unit())
+        .number("start", unit, |c| c.parameter.value(c.parameter.mean))
+        .number("value", unit, |c| c.parameter.value(c.x))
+        .number("standard_error", unit, |c| (c.error * c.parameter.derivative(c.x)).abs())
+        .number("chi_squared_gain", "1", |c| c.gain)
+        .number("predicted_gain", "1", |c| c.predicted_gain)
+        .number("chi_squared", "1", |c| c.goodness.chi_squared)
+        .number("degrees_of_freedom", "1", |c| c.goodness.degrees_of_freedom)
+        .number("chi_squared_probability", "1", |c| c.goodness.probability())
+        .flag("explains", |c| !c.goodness.is_rejected())
+        .lists("same_effect", |c| c.alike.clone())
+}
+
+fn profiles_document<'a>(
+    profiles: &[Profile],
+    parameters: &[FreeParameter],
+    place: &dyn Fn(&str) -> Names,
+) -> Document<'a> {
+    let one = |found: &Profile| {
+        let parameter = &parameters[found.parameter];
+        let unit = parameter.unit();
+        let values = |x: &[f64]| x.iter().map(|x| parameter.value(*x)).collect::<Vec<f64>>();
+        let ends = |ends: [Option<f64>; 2]| ends.map(|x| x.map_or(f64::NAN, |x| parameter.value(x))).to_vec();
+        let content = Document::new()
+            .text("unit", unit)
+            .numbers("value", unit, values(&found.x))
+            .numbers("chi_squared", "1", found.chi_squared.clone())
+            .number("best", unit, parameter.value(found.best))
+            .number("least_chi_squared", "1", found.least)
+            .number("scale", "1", found.scale)
+            .numbers("interval_68", unit, ends(found.interval_68))
+            .numbers("interval_95", unit, ends(found.interval_95));
+        (parameter.name.clone(), content)
+    };
+    Document::new().groups(place("profiles"), "name", profiles.iter().map(one))
 }
 
 fn parameter_rows<'a, 'r>(

@@ -13,16 +13,25 @@
 //! | [`frf`] | residuals of FRFs: selected lines and their weights |
 //! | [`least_squares`] | Levenberg-Marquardt with bounds and priors |
 //! | [`identifiability`] | identifiability, standard errors and correlation of the parameters |
+//! | [`goodness`], [`chi_squared`] | whether the fitted model explains the data: probability of χ² |
+//! | [`culprits`] | parameters that are not free and would explain a misfit |
+//! | [`groups`] | parameters that the data cannot separate |
+//! | [`profile`] | profile likelihood of a parameter, its 68 % and 95 % intervals |
 
+pub mod chi_squared;
 pub mod correlation;
+pub mod culprits;
 mod document;
 mod error;
 pub mod force_levels;
 pub mod frf;
+pub mod goodness;
+pub mod groups;
 pub mod identifiability;
 pub mod least_squares;
 pub mod pairing;
 pub mod parameter;
+pub mod profile;
 mod repeated;
 pub mod residual;
 mod residual_rows;
@@ -31,7 +40,9 @@ pub mod target;
 
 use rayon::prelude::*;
 
+pub use document::Findings;
 pub use error::{UpdateError, UpdateFailure};
+use goodness::GoodnessOfFit;
 use identifiability::{Identifiability, MAX_PRIOR_SHARE, MAX_RELATIVE_ERROR, PRIOR_DOMINATED_SHARE};
 use least_squares::{Evaluation, Iteration, Prior, minimise};
 use parameter::FreeParameter;
@@ -66,6 +77,8 @@ pub enum IdentifiabilityClass {
     NotIdentifiable,
     /// The fit ended at a bound.
     AtBound,
+    /// The fitted model does not explain the data: the value stands for an error of the model elsewhere.
+    PoorFit,
 }
 
 impl IdentifiabilityClass {
@@ -76,6 +89,7 @@ impl IdentifiabilityClass {
             IdentifiabilityClass::PoorlyIdentifiable => "poorly identifiable",
             IdentifiabilityClass::NotIdentifiable => "not identifiable",
             IdentifiabilityClass::AtBound => "at bound",
+            IdentifiabilityClass::PoorFit => "poor fit",
         }
     }
 }
@@ -107,21 +121,55 @@ pub struct Update {
     pub fitted_modes: Vec<usize>,
     /// Number of data.
     pub data: usize,
+    /// χ² of the model `after`, and whether it explains the data.
+    pub goodness: GoodnessOfFit,
+}
+
+impl Update {
+    /// Final coordinates.
+    pub fn x(&self) -> Vec<f64> {
+        self.outcomes.iter().map(|outcome| outcome.x).collect()
+    }
+
+    /// Parameters fitted in the end: all but those reset to their start.
+    pub fn fitted(&self) -> Vec<usize> {
+        (0..self.outcomes.len()).filter(|&j| !self.outcomes[j].is_reset()).collect()
+    }
+}
+
+impl Outcome {
+    /// Whether the parameter has its start value, which the data do not improve.
+    pub fn is_reset(&self) -> bool {
+        self.class == IdentifiabilityClass::NotIdentifiable
+    }
 }
 
 /// Fits the free parameters; those not identifiable are reset to their start, the others fitted again.
 ///
+/// If the fitted model does not explain the data (probability of χ² below 1 %), no parameter is identifiable.
+///
 /// # Errors
 /// No mode pair to fit, more parameters than data, parameters without influence, no equilibrium at the start.
 pub fn update(job: &UpdateJob) -> Result<Update, UpdateFailure> {
-    // Ball inertia is decided once, with the first model, for all steps.
+    decided(job, update_decided)
+}
+
+/// Calls `with` on the job with the decisions on ball inertia of its first model, for all steps.
+pub(crate) fn decided<T>(
+    job: &UpdateJob,
+    with: impl FnOnce(&UpdateJob) -> Result<T, UpdateFailure>,
+) -> Result<T, UpdateFailure> {
     let first = (job.load)(&settings(job.parameters, &parameter::prior(job.parameters).mean))?;
-    if is_undecided(&first) {
-        let used = ball_inertia(&first, &Assembly::new(&first)?, job.target.speed, None);
-        let load =
-            |settings: &[(String, String)]| (job.load)(settings).map(|model| with_decisions(&model, &used));
-        return update(&UpdateJob { load: &load, ..*job });
+    if !is_undecided(&first) {
+        return with(job);
     }
+    let used = ball_inertia(&first, &Assembly::new(&first)?, job.target.speed, None);
+    let load =
+        |settings: &[(String, String)]| (job.load)(settings).map(|model| with_decisions(&model, &used));
+    with(&UpdateJob { load: &load, ..*job })
+}
+
+fn update_decided(job: &UpdateJob) -> Result<Update, UpdateFailure> {
     let prior = parameter::prior(job.parameters);
     let start: Vec<f64> = prior.mean.clone();
     let before = ModelState::new((job.load)(&settings(job.parameters, &start))?, job.target, None)?;
@@ -152,24 +200,36 @@ pub fn update(job: &UpdateJob) -> Result<Update, UpdateFailure> {
         state = job.state(&fit.x)?;
     }
     let estimate = identifiability::identifiability(&fit.evaluation, &prior);
-    let classes: Vec<IdentifiabilityClass> =
+    let mut classes: Vec<IdentifiabilityClass> =
         (0..job.parameters.len()).map(|j| classify(job, &fit.x, &estimate, j)).collect();
+    let kept: Vec<usize> =
+        (0..fit.x.len()).filter(|&j| classes[j] != IdentifiabilityClass::NotIdentifiable).collect();
     let mut x = fit.x.clone();
     let mut iterations = fit.iterations;
     let mut converged = fit.converged;
-    if classes.contains(&IdentifiabilityClass::NotIdentifiable) {
+    let mut evaluation = fit.evaluation;
+    if kept.len() < x.len() {
         let mut constrained = prior.clone();
-        for j in (0..x.len()).filter(|&j| classes[j] == IdentifiabilityClass::NotIdentifiable) {
+        for j in (0..x.len()).filter(|j| !kept.contains(j)) {
             x[j] = prior.mean[j];
             (constrained.lower[j], constrained.upper[j]) = (x[j], x[j]);
         }
-        if classes.iter().any(|v| *v != IdentifiabilityClass::NotIdentifiable) {
+        if kept.is_empty() {
+            evaluation = job.evaluate(&x, &fitted_modes)?;
+        } else {
             let again = self::fit(job, &constrained, &x, &fitted_modes)?;
-            x = again.x;
+            (x, evaluation) = (again.x, again.evaluation);
             iterations.extend(again.iterations);
             converged &= again.converged;
         }
         state = job.state(&x)?;
+    }
+    let goodness = GoodnessOfFit::new(&evaluation, &prior, &kept);
+    if goodness.is_rejected() {
+        use IdentifiabilityClass::{Identifiable, PoorFit, PoorlyIdentifiable};
+        for class in classes.iter_mut().filter(|class| matches!(class, Identifiable | PoorlyIdentifiable)) {
+            *class = PoorFit;
+        }
     }
     let outcomes = (0..x.len())
         .map(|j| Outcome {
@@ -189,6 +249,7 @@ pub fn update(job: &UpdateJob) -> Result<Update, UpdateFailure> {
         after: state,
         fitted_modes,
         data,
+        goodness,
     })
 }
 
@@ -198,27 +259,40 @@ pub fn settings(parameters: &[FreeParameter], x: &[f64]) -> Vec<(String, String)
 }
 
 impl UpdateJob<'_> {
-    fn state(&self, x: &[f64]) -> Result<ModelState, UpdateFailure> {
+    pub(crate) fn state(&self, x: &[f64]) -> Result<ModelState, UpdateFailure> {
         ModelState::new((self.load)(&settings(self.parameters, x))?, self.target, None)
     }
 
     /// Derivatives dM, dD and dS by every coordinate at x.
     fn derivatives(&self, x: &[f64], state: &ModelState) -> Result<Vec<SystemDerivative>, UpdateFailure> {
         let all = settings(self.parameters, x);
-        let one = |parameter: &FreeParameter, x: f64| {
-            let (sides, width) = parameter.difference_settings(x);
-            let model = |own: &Vec<(String, String)>| {
-                let mut set = all.clone();
-                set.extend_from_slice(own);
-                (self.load)(&set)
-            };
-            Ok(state.linearised.derivative(&model(&sides[0])?, &model(&sides[1])?, width)?)
-        };
+        let one = |parameter: &FreeParameter, x: f64| self.derivative(&all, parameter, x, state);
         self.parameters.par_iter().zip(x).map(|(p, x)| one(p, *x)).collect()
+    }
+
+    /// Derivatives dM, dD and dS of the model with settings `all` by the coordinate of a parameter at x.
+    pub(crate) fn derivative(
+        &self,
+        all: &[(String, String)],
+        parameter: &FreeParameter,
+        x: f64,
+        state: &ModelState,
+    ) -> Result<SystemDerivative, UpdateFailure> {
+        let (sides, width) = parameter.difference_settings(x);
+        let model = |own: &[(String, String)]| (self.load)(&[all, own].concat());
+        Ok(state.linearised.derivative(&model(&sides[0])?, &model(&sides[1])?, width)?)
+    }
+
+    /// Residuals of the modes `kept` and of the FRFs at x, with their derivatives.
+    pub(crate) fn evaluate(&self, x: &[f64], kept: &[usize]) -> Result<Evaluation, UpdateFailure> {
+        let state = self.state(x)?;
+        let by = self.derivatives(x, &state)?;
+        evaluate_residuals(&state, self.target, self.fitting, kept, &by)
     }
 }
 
-fn fit(
+/// Fits the parameters to the modes `kept` and the FRFs.
+pub(crate) fn fit(
     job: &UpdateJob,
     prior: &Prior,
     start: &[f64],
@@ -226,9 +300,7 @@ fn fit(
 ) -> Result<least_squares::Solution, UpdateFailure> {
     let mut first = true;
     let mut evaluate = |x: &[f64]| -> Result<Evaluation, UpdateFailure> {
-        let state = job.state(x)?;
-        let by = job.derivatives(x, &state)?;
-        let found = evaluate_residuals(&state, job.target, job.fitting, kept, &by)?;
+        let found = job.evaluate(x, kept)?;
         if std::mem::take(&mut first) {
             check_influence(job, &found, prior)?;
         }

@@ -147,9 +147,98 @@ pub fn prior(parameters: &[FreeParameter]) -> Prior {
     }
 }
 
+/// Tables of the model file whose numbers are known or do not change the modes of the machine: places, operation,
+/// measurement and studies.
+const TABLES_LEFT_OUT: [&str; 11] = [
+    "model",
+    "station",
+    "speed",
+    "drive",
+    "unbalance",
+    "load",
+    "lubricant",
+    "probe",
+    "sensor",
+    "study",
+    "variant",
+];
+/// Keys that are settings of the computation, or do not matter on average.
+const KEYS_LEFT_OUT: [&str; 2] = ["element_length", "cage_angle"];
+
+/// Parameters that could be free beside those that are: every number of the machine by itself, and equal numbers of
+/// the same key of several items together, such as "housing.*.k_x".
+///
+/// Left out are zeros, which have no scale, and numbers of which a part is free already.
+pub fn candidates(numbers: &[ModelNumber], free: &[FreeParameter]) -> Vec<FreeParameter> {
+    let is_free = |n: &ModelNumber| free.iter().flat_map(|p| &p.numbers).any(|own| own.path == n.path);
+    let is_candidate = |n: &&ModelNumber| {
+        let parts: Vec<&str> = n.path.split('.').collect();
+        let named = n.quoted && n.unit.is_empty();
+        let left_out = TABLES_LEFT_OUT.contains(&parts[0])
+            || parts.last().is_some_and(|key| KEYS_LEFT_OUT.contains(key));
+        n.value != 0.0 && !named && !left_out && !is_free(n)
+    };
+    let own: Vec<&ModelNumber> = numbers.iter().filter(is_candidate).collect();
+    let one = |n: &&ModelNumber| FreeParameter::new(&n.path, vec![(*n).clone()], n.value > 0.0, None);
+    let mut out: Vec<FreeParameter> = own.iter().filter_map(one).collect();
+    let pattern = |n: &ModelNumber| -> Option<String> {
+        let (table, rest) = n.path.split_once('.')?;
+        let (_, key) = rest.split_once('.')?;
+        Some(format!("{table}.*.{key}"))
+    };
+    for (k, first) in own.iter().enumerate() {
+        let Some(name) = pattern(first) else { continue };
+        let same = |n: &&&ModelNumber| {
+            pattern(n).as_ref() == Some(&name) && n.value == first.value && n.unit == first.unit
+        };
+        let members: Vec<ModelNumber> = own[k..].iter().filter(same).map(|n| (*n).clone()).collect();
+        let every = numbers.iter().filter(|n| pattern(n).as_ref() == Some(&name)).count();
+        // Once, at the first of them; the name stands for all items that have the key.
+        if members.len() > 1 && members.len() == every {
+            out.extend(FreeParameter::new(&name, members, first.value > 0.0, None));
+        }
+    }
+    out
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn candidates_are_numbers_of_the_machine_alone_and_together() {
+        let place = |path: &str, text: &str| ModelNumber::read(path, text, true).unwrap();
+        let numbers = [
+            place("model.gravity", "9.8 m/s^2"),
+            place("material.steel.young", "207 GPa"),
+            place("shaft.element_length", "10 mm"),
+            place("housing.A.k_x", "6e6 N/m"),
+            place("housing.A.k_y", "9e6 N/m"),
+            place("housing.A.c_x", "3 N s/m"),
+            place("housing.B.k_x", "6e6 N/m"),
+            place("housing.B.k_y", "8e6 N/m"),
+            place("housing.B.c_x", "3 N s/m"),
+            place("bearing.A.designation", "6205"),
+            place("bearing.A.c_xx", "0 N s/m"),
+            place("study.frf.speed", "600 rpm"),
+        ];
+        let names = |free: &[FreeParameter]| -> Vec<String> {
+            candidates(&numbers, free).into_iter().map(|p| p.name).collect()
+        };
+        let free = FreeParameter::new("housing.A.c_x", vec![numbers[5].clone()], true, None).unwrap();
+        let single = [
+            "material.steel.young",
+            "housing.A.k_x",
+            "housing.A.k_y",
+            "housing.B.k_x",
+            "housing.B.k_y",
+            "housing.B.c_x",
+        ];
+        assert_eq!(names(&[free]), [&single[..], &["housing.*.k_x"]].concat());
+        let all = names(&[]);
+        assert!(all.contains(&"housing.A.c_x".into()) && all.contains(&"housing.*.c_x".into()), "{all:?}");
+        assert!(!all.contains(&"housing.*.k_y".into()), "different numbers: {all:?}");
+    }
 
     #[test]
     fn one_number_with_its_unit() {

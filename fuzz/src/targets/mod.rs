@@ -5,6 +5,7 @@ mod mapping;
 mod measured;
 mod model;
 mod results;
+mod ross;
 mod set;
 
 use std::path::Path;
@@ -37,7 +38,7 @@ const FOREIGN: &str = "tests/data/arrays/foreign";
 const TABLES: &[(&str, &str)] = &[(FOREIGN, "csv"), (FOREIGN, "txt"), (FOREIGN, "lvm")];
 
 /// All targets.
-pub static ALL: [Target; 10] = [
+pub static ALL: [Target; 11] = [
     Target {
         name: "model",
         run: model::run,
@@ -66,6 +67,16 @@ pub static ALL: [Target; 10] = [
         max_length: 1 << 13,
         dictionary: dictionary::mapping,
         seed_files: &[],
+        made_seeds: Vec::new,
+    },
+    Target {
+        name: "ross",
+        run: ross::run,
+        text: true,
+        hdf5: false,
+        max_length: 1 << 14,
+        dictionary: dictionary::ross,
+        seed_files: &[("tests/data/ross/rotors", "toml"), ("tests/data/ross/rotors", "json")],
         made_seeds: Vec::new,
     },
     Target {

@@ -88,7 +88,11 @@ pub struct IdentifyArgs {
     /// else harmonics are recognised by their amplitude distribution]
     #[arg(long, value_name = "SPEED", help_heading = "Shaft", conflicts_with_all = ["tacho", "track"])]
     pub speed: Option<String>,
-    /// Orders of sines beside the multiples of the speed, such as the ball-pass order: 3.57,5.43
+    /// Channels of the responses of a machine in operation, such as A_x,A_y [default: all vibrations of the file]
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub channels: Vec<String>,
+    /// Orders of sines beside the multiples of the speed, such as the ball-pass order: 3.57,5.43 [default: for a run of this
+    /// program the ball-pass orders of its bearings]
     #[arg(long, value_name = "LIST", help_heading = "Shaft", value_delimiter = ',')]
     pub orders: Vec<String>,
     #[command(flatten)]

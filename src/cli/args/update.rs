@@ -33,11 +33,17 @@ pub const UPDATE: &str = "\
 Any number of the file can be a free parameter. Positive ones are varied on a logarithmic scale. Parameters that are \
 not identifiable (posterior variance above half the prior variance) keep their start value.
 
+The probability of chi^2 decides whether the model explains the data. Below 1 % it does not: no parameter is called \
+identifiable, and every number of the machine that is not free is tried once; those that would explain the misfit are \
+named with their gain in chi^2 and the value they would take. Parameters that the data cannot separate are named as a \
+group, with the combination that is determined and the one that is not.
+
 Examples:
   rotordyn update models/overhung_rig.toml --measured hammer.uff --free housing.B.k_x,housing.B.k_y
   rotordyn update my_machine.toml --measured modes.uff --free housing.*.k_x,belt.drive.k_x --fit frequency,mac,damping
   rotordyn update my_machine.toml --measured modes.uff --free housing.A.k_x+housing.B.k_x \\
-      --bounds housing.A.k_x+housing.B.k_x=\"1e6 .. 1e8 N/m\" --write my_machine_updated.toml";
+      --bounds housing.A.k_x+housing.B.k_x=\"1e6 .. 1e8 N/m\" --write my_machine_updated.toml
+  rotordyn update my_machine.toml --measured modes.uff --free housing.B.k_x,housing.B.k_y --profile housing.B.k_x";
 
 /// Measured files, mapping, band and speed.
 #[derive(Args, Clone, Debug)]
@@ -98,6 +104,10 @@ pub struct UpdateArgs {
     /// Standard deviation of FRFs (model error), relative to their magnitude \[%\]: 10 is about 1 dB
     #[arg(long, value_name = "PERCENT", default_value_t = 10.0, value_parser = positive)]
     pub frf_accuracy: f64,
+    /// Parameters of --free, separated by commas, whose profile likelihood is computed: chi^2 over the parameter with all
+    /// others fitted again, its 68 % and 95 % intervals, and a figure
+    #[arg(long, value_name = "PATHS", value_delimiter = ',')]
+    pub profile: Vec<String>,
     /// Maximum number of iterations
     #[arg(long, value_name = "N", default_value_t = 40)]
     pub iterations: usize,

@@ -11,7 +11,7 @@ fn row(speed: f64, scale: f64) -> LinearBearingRow {
 #[test]
 fn tangents_match_finite_differences_and_power_balances() {
     let table = vec![row(0.0, 1.0), row(100.0, 1.4), row(300.0, 3.0)];
-    let element = LinearBearing { table, beyond: Default::default() }.element();
+    let element = LinearBearing { table, ..Default::default() }.element();
     let (d, v) = ([1e-5, -2e-5, 3e-6, 1e-4, -2e-4, 5e-5], [1e-3, 2e-3, -1e-3, 0.1, 0.05, -0.02]);
     for speed in [0.0, 60.0, 100.0, 220.0, 400.0] {
         let rotation = Rotation { shaft_speed: speed, ..Rotation::default() };

@@ -22,7 +22,7 @@ fn samples() -> Vec<Bearing> {
     };
     let row =
         |speed| LinearBearingRow { speed, stiffness: matrix(1.0 + speed / 300.0), damping: matrix(1e-4) };
-    let linear = LinearBearing { table: vec![row(0.0), row(300.0)], beyond: Default::default() };
+    let linear = LinearBearing { table: vec![row(0.0), row(300.0)], ..Default::default() };
     let radial = RadialBallBearing {
         ball: rig_6205(),
         stiffness_damping: [1e-4, 0.7e-4],

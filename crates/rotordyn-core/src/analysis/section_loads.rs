@@ -7,7 +7,7 @@
 //! element: their forces are left out.
 
 use crate::element::shaft_matrices::ConeRule;
-use crate::element::{Element, ElementMatrices};
+use crate::element::{Element, ElementMatrices, ShaftElement};
 use crate::model::Model;
 use rotordyn_linalg::{Complex64, SparseMatrix};
 use std::f64::consts::PI;
@@ -111,11 +111,18 @@ impl ShaftSections {
     }
 }
 
-/// Largest bending stress √(M_xz² + M_yz²) d/(2 I) in a section of an element \[Pa\].
+/// Largest bending stress √(M_xz² + M_yz²) d/(2 I) in a section of an element \[Pa\]; with layers of moduli E_k that of the
+/// layer with the largest one, √(M_xz² + M_yz²) E d/(2 Σ E_k I_k).
 pub fn bending_stress(model: &Model, section: &SectionLoad) -> f64 {
     let (element, end) = (&model.shaft[section.element], section.node - section.element);
-    let (outer, inner) = (element.outer_diameter[end], element.inner_diameter[end]);
-    let second_moment = PI / 64.0 * (outer.powi(4) - inner.powi(4));
+    let second_moment =
+        |e: &ShaftElement| PI / 64.0 * (e.outer_diameter[end].powi(4) - e.inner_diameter[end].powi(4));
     let [x, y] = section.moment.map(|moment| moment.norm());
-    0.5 * outer * x.hypot(y) / second_moment
+    let moment = x.hypot(y);
+    if element.layers.is_empty() {
+        return 0.5 * element.outer_diameter[end] * moment / second_moment(element);
+    }
+    let rigidity: f64 = element.with_layers().map(|e| e.material.young * second_moment(e)).sum();
+    let stress = |e: &ShaftElement| 0.5 * e.outer_diameter[end] * moment * e.material.young / rigidity;
+    element.with_layers().map(stress).fold(0.0, f64::max)
 }

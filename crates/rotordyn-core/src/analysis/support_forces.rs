@@ -37,11 +37,13 @@ pub fn support_forces(model: &Model, sections: &[SectionLoad]) -> Vec<SupportFor
             row.0.iter().for_each(|&(dof, v)| force[node][dof % 6] -= v * load[i]);
         }
     };
-    let [x, y, z] = model.gravity;
-    let weight = |mass: f64| [mass * x, mass * y, mass * z, 0.0, 0.0, 0.0];
-    model.rotating_inertias().for_each(|disc| add(&Anchor::node(disc.node), weight(disc.mass)));
+    let weight = |mass: [f64; 3]| {
+        let [x, y, z] = std::array::from_fn(|i| mass[i] * model.gravity[i]);
+        [x, y, z, 0.0, 0.0, 0.0]
+    };
+    model.rotating_inertias().for_each(|disc| add(&Anchor::node(disc.node), weight([disc.mass; 3])));
     model.masses.iter().for_each(|mass| add(&mass.anchor, weight(mass.mass)));
-    model.loads.iter().filter(|load| load.history.is_empty()).for_each(|load| add(&load.at, load.force));
+    model.loads.iter().filter(|load| load.factor.is_constant()).for_each(|load| add(&load.at, load.force));
     let mut names: Vec<Vec<String>> = vec![Vec::new(); nodes];
     let mut name = |at: &Anchor, text: String| {
         at.node.and_then(|node| names.get_mut(node)).into_iter().for_each(|names| names.push(text.clone()));

@@ -20,6 +20,9 @@ pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<
     let mut warnings = Vec::new();
     for site in &model.bearings {
         let Some(range) = site.bearing.speed_range() else { continue };
+        if range.beyond == BeyondTable::Extrapolate {
+            continue;
+        }
         let table = range.speeds;
         let margin = TABLE_MARGIN * table[1];
         if speeds[0] >= table[0] - margin && speeds[1] <= table[1] + margin {
@@ -49,7 +52,7 @@ pub fn check_tables(model: &Model, study: &str, speeds: [f64; 2]) -> Result<Vec<
 pub fn warnings(model: &Model, studies: &[(&str, [f64; 2])]) -> Vec<Warning> {
     let rpm = |speed: f64| format!("{:.0}", speed * 60.0 / TAU);
     let of_bearing = |site: &BearingSite| {
-        let range = site.bearing.speed_range().filter(|range| range.beyond != BeyondTable::Refuse)?;
+        let range = site.bearing.speed_range().filter(|range| range.beyond == BeyondTable::Hold)?;
         let [first, last] = range.speeds;
         let margin = TABLE_MARGIN * last;
         let beyond: Vec<&(&str, [f64; 2])> = studies

@@ -66,7 +66,7 @@ pub(super) fn loads(model: &Model, mass: &SparseMatrix) -> (Vec<f64>, Vec<f64>) 
     let n = 6 * model.node_count();
     let acceleration: Vec<f64> = (0..n).map(|i| if i % 6 < 3 { model.gravity[i % 6] } else { 0.0 }).collect();
     let mut static_load = vec![0.0; n];
-    for load in model.loads.iter().filter(|load| load.history.is_empty()) {
+    for load in model.loads.iter().filter(|load| load.factor.is_constant()) {
         add_force(&load.at.rows(), &load.force, &mut static_load);
     }
     for (_, element) in model.elements() {

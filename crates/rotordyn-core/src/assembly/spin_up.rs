@@ -51,7 +51,7 @@ pub(super) fn spin_up(model: &Model, form: SpinUpForm, gyroscopic: &SparseMatrix
         SpinUpForm::None => {}
         SpinUpForm::Ross => {
             for (e, element) in model.shaft.iter().enumerate() {
-                add12(&mut k, e, &element.spin_up_ross(), 1.0);
+                element.with_layers().for_each(|layer| add12(&mut k, e, &layer.spin_up_ross(), 1.0));
             }
             for disc in model.rotating_inertias() {
                 k.add(6 * disc.node + 4, 6 * disc.node + 3, disc.polar_inertia);

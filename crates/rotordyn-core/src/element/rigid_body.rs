@@ -9,8 +9,8 @@ pub struct RigidBody {
     pub name: String,
     /// Position of the centre of mass \[m\] in the model's axes (shaft axis: x = y = 0).
     pub position: [f64; 3],
-    /// Mass m \[kg\].
-    pub mass: f64,
+    /// Mass along x, y and z \[kg\], equal save for the modal mass of a support.
+    pub mass: [f64; 3],
     /// Inertia tensor about the centre of mass \[kg m²\], row-major, symmetric.
     pub inertia: [[f64; 3]; 3],
 }
@@ -38,15 +38,15 @@ pub struct Disc {
 pub struct PointMass {
     pub name: String,
     pub anchor: Anchor,
-    /// Mass m \[kg\].
-    pub mass: f64,
+    /// Mass along x, y and z \[kg\], equal save for the added mass of a seal or the like.
+    pub mass: [f64; 3],
 }
 
 impl Element for RigidBody {
     fn add_matrices(&self, node: usize, to: &mut ElementMatrices) {
         let at = 6 * node;
         for i in 0..3 {
-            to.mass.add(at + i, at + i, self.mass);
+            to.mass.add(at + i, at + i, self.mass[i]);
             for j in 0..3 {
                 to.mass.add(at + 3 + i, at + 3 + j, self.inertia[i][j]);
             }
@@ -68,9 +68,8 @@ impl Element for Disc {
 
 impl Element for PointMass {
     fn add_matrices(&self, _node: usize, to: &mut ElementMatrices) {
-        let [x, y, z, ..] = self.anchor.rows();
-        for row in [x, y, z] {
-            to.mass.add_between_rows(&[row], &[[self.mass]]);
+        for (row, mass) in self.anchor.rows().into_iter().zip(self.mass) {
+            to.mass.add_between_rows(&[row], &[[mass]]);
         }
     }
 }

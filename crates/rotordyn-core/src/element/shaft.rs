@@ -37,9 +37,17 @@ pub struct ShaftElement {
     pub proportional_damping: [f64; 2],
     /// Internal (rotating) viscous damping coefficient η_v \[s\]: C_i = η_v K_e, with circulatory stiffness Ω η_v K_c.
     pub internal_viscous: f64,
+    /// Further sections between the same two nodes, such as a sleeve; each has its own shape functions, and their matrices
+    /// are added.
+    pub layers: Vec<ShaftElement>,
 }
 
 impl ShaftElement {
+    /// The element itself, then its layers.
+    pub fn with_layers(&self) -> impl Iterator<Item = &Self> {
+        std::iter::once(self).chain(&self.layers)
+    }
+
     /// Outer and inner diameter at ξ = z/L \[m\].
     fn diameters(&self, xi: f64) -> (f64, f64) {
         let at = |d: [f64; 2]| d[0] + xi * (d[1] - d[0]);
@@ -88,16 +96,20 @@ impl ShaftElement {
         })
     }
 
-    /// Mass \[kg\].
+    /// Mass with that of the layers \[kg\].
     pub fn mass(&self) -> f64 {
-        self.length * self.material.density * quadrature(|xi| self.area(xi))
+        let own = |e: &Self| e.length * e.material.density * quadrature(|xi| e.area(xi));
+        self.with_layers().map(own).sum()
     }
 
-    /// Polar moment of inertia about the shaft's axis of the part from ξ to the right end \[kg m²\].
+    /// Polar moment of inertia about the shaft's axis of the part from ξ to the right end, with the layers \[kg m²\].
     pub fn polar_inertia_beyond(&self, xi: f64) -> f64 {
         let span = 1.0 - xi;
-        let density = 2.0 * self.material.density * self.length * span;
-        density * quadrature(|t| self.second_moment(xi + t * span))
+        let own = |e: &Self| {
+            let density = 2.0 * e.material.density * e.length * span;
+            density * quadrature(|t| e.second_moment(xi + t * span))
+        };
+        self.with_layers().map(own).sum()
     }
 }
 

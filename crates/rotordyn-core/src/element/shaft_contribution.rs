@@ -20,6 +20,7 @@ impl Element for ShaftElement {
         if self.internal_viscous != 0.0 {
             add12(&mut to.circulatory, node, &self.circulatory_stiffness(), 1.0);
         }
+        self.layers.iter().for_each(|layer| layer.add_matrices(node, to));
     }
 }
 

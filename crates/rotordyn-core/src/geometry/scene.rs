@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion};
 use super::bearing_shapes::{BearingPose, BearingShapes};
 use super::mesh::{Length, Mesh};
 use super::scene_graph::{Material, MaterialMesh, Node, Scene};
-use crate::element::{Disc, RigidBody};
+use crate::element::{Disc, RigidBody, ShaftElement};
 use crate::model::Model;
 use rotordyn_bearing::{BallBearing, BallGeometry};
 
@@ -127,11 +127,15 @@ pub fn row_shapes(bearing: &BallBearing) -> Vec<(f64, BearingShapes)> {
 /// Sections of the shaft; a rigid rotor is drawn as its cylinder, turned down to the bores of its ball
 /// bearings.
 pub fn shaft_sections(model: &Model) -> Vec<Length> {
-    let half = |d: [f64; 2]| d.map(|d| 0.5 * d);
+    // of layers what is seen: the outermost surface and the innermost one
+    let radius =
+        |e: &ShaftElement, end: usize, pick: fn(f64, f64) -> f64, of: fn(&ShaftElement) -> [f64; 2]| {
+            0.5 * e.layers.iter().fold(of(e)[end], |d, layer| pick(d, of(layer)[end]))
+        };
     let elastic = model.shaft.iter().zip(model.node_z.windows(2)).map(|(e, z)| Length {
         z: [z[0], z[1]],
-        outer: half(e.outer_diameter),
-        inner: half(e.inner_diameter),
+        outer: [0, 1].map(|end| radius(e, end, f64::max, |e| e.outer_diameter)),
+        inner: [0, 1].map(|end| radius(e, end, f64::min, |e| e.inner_diameter)),
     });
     match &model.rigid_rotor {
         None => elastic.collect(),
@@ -177,9 +181,11 @@ pub fn shaft_diameter(model: &Model, node: usize) -> f64 {
         let at = sections.iter().filter(|s| s.z[0] <= z && z <= s.z[1]);
         return at.map(|s| 2.0 * s.outer[0]).fold(0.0, f64::max);
     }
-    let left = node.checked_sub(1).and_then(|k| model.shaft.get(k)).map_or(0.0, |e| e.outer_diameter[1]);
-    let right = model.shaft.get(node).map_or(0.0, |e| e.outer_diameter[0]);
-    left.max(right)
+    let at = |k: Option<usize>, end: usize| {
+        let layers = k.and_then(|k| model.shaft.get(k)).into_iter().flat_map(ShaftElement::with_layers);
+        layers.map(|e| e.outer_diameter[end]).fold(0.0, f64::max)
+    };
+    at(node.checked_sub(1), 1).max(at(Some(node), 0))
 }
 
 /// Radius and thickness as given, else of the solid cylinder with I_p = m R²/2, I_d = m (3 R² + t²)/12.
@@ -218,7 +224,8 @@ pub fn equivalent_box(body: &RigidBody) -> ([f64; 3], UnitQuaternion<f64>) {
         (eigen.eigenvalues, UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes)))
     };
     let trace = moments.sum();
+    let mass = body.mass.iter().sum::<f64>() / 3.0;
     // A point mass, or a body with physically impossible inertias, is drawn with edges of 10 mm.
-    let edge = |k: usize| (6.0 * (trace - 2.0 * moments[k]) / body.mass).max(1e-4).sqrt();
+    let edge = |k: usize| (6.0 * (trace - 2.0 * moments[k]) / mass).max(1e-4).sqrt();
     ([edge(0), edge(1), edge(2)], turn)
 }

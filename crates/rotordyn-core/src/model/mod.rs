@@ -11,6 +11,7 @@ pub mod study;
 
 pub use external_file::{ExternalColumn, ExternalFile};
 pub use probe::{Probe, Quantity};
+pub use rotordyn_signal::band_noise::BandNoise;
 pub use shaft_extent::{EqualElements, ShaftExtent};
 pub use speed_profile::{SpeedCurve, SpeedProfile, Spin};
 
@@ -18,6 +19,7 @@ use crate::element::{
     Anchor, Belt, Bushing, Disc, Element, Joint, Material, PointMass, RigidBody, ShaftElement,
 };
 use rotordyn_bearing::Bearing;
+use rotordyn_linalg::{Outside, piecewise};
 
 /// One rotating machine in SI units; immutable after validation.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,15 +115,44 @@ pub struct Unbalance {
     pub phase: f64,
 }
 
-/// Concentrated load at an anchor: constant or tabulated over time.
+/// Concentrated load at an anchor: constant or over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Load {
     pub name: String,
     pub at: Anchor,
     /// Force and moment \[N, N m\] at factor 1.
     pub force: [f64; 6],
-    /// (time \[s\], factor), piecewise linear, zero outside; empty means always 1 (and then part of the static load).
-    pub history: Vec<[f64; 2]>,
+    pub factor: LoadFactor,
+}
+
+/// Factor of a load over time.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LoadFactor {
+    /// Always 1, and part of the static load.
+    Constant,
+    /// (time \[s\], factor), piecewise linear, zero outside.
+    Table(Vec<[f64; 2]>),
+    /// Gaussian of RMS 1 in a frequency band.
+    Random(BandNoise),
+}
+
+impl LoadFactor {
+    /// Value at a time \[s\].
+    pub fn at(&self, time: f64) -> f64 {
+        match self {
+            Self::Constant => 1.0,
+            Self::Table(points) => piecewise(points, time, Outside::Zero)[1],
+            Self::Random(noise) => noise.at(time),
+        }
+    }
+
+    pub fn is_random(&self) -> bool {
+        matches!(self, Self::Random(_))
+    }
+
+    pub fn is_constant(&self) -> bool {
+        matches!(self, Self::Constant)
+    }
 }
 
 /// Global damping: proportional (Rayleigh) and modal damping, in addition to that of the elements.

@@ -134,6 +134,25 @@ impl Machine {
         LinearSystem::new(&self.assembly, &self.tangents(speed, true)?, speed)
     }
 
+    /// The equations of motion at a speed for motions of one frequency \[rad/s\]; `None` if no bearing depends on it.
+    ///
+    /// # Errors
+    /// As [`LinearSystem::new`].
+    pub fn linear_system_at_whirl(
+        &self,
+        speed: f64,
+        whirl: f64,
+    ) -> Result<Option<LinearSystem>, PhysicsError> {
+        let own: Vec<_> =
+            self.bearings.iter().map(|element| element.tangent_at_whirl(speed, whirl)).collect();
+        if own.iter().all(Option::is_none) {
+            return Ok(None);
+        }
+        let tangents = self.tangents(speed, true)?.into_iter().zip(own);
+        let tangents: Vec<_> = tangents.map(|(tangent, own)| own.unwrap_or(tangent)).collect();
+        LinearSystem::new(&self.assembly, &tangents, speed).map(Some)
+    }
+
     /// Motions that nothing constrains in a linear system, in words: rigid-body modes at 0 Hz.
     pub(super) fn unconstrained_motions(&self, system: &LinearSystem) -> Result<Vec<String>, PhysicsError> {
         let mut motions = rigid_body_modes::rigid_body_modes_of(&self.assembly, system)?;

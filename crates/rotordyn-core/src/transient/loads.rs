@@ -4,7 +4,6 @@ use nalgebra::{DMatrix, DVector};
 
 use super::system::System;
 use crate::model::Spin;
-use rotordyn_linalg::{Outside, piecewise};
 
 impl System {
     /// Load p(t) without bearing forces, and under a torque drive without what couples the rotation to the other
@@ -21,11 +20,10 @@ impl System {
         self.given_terms(time).chain(self.rotating_terms(spin))
     }
 
-    /// Constant and tabulated loads.
+    /// Constant loads and those over time.
     fn given_terms(&self, time: f64) -> impl Iterator<Item = (f64, &DVector<f64>)> {
-        let histories = self.histories.iter();
-        let histories = histories.map(move |h| (piecewise(&h.points, time, Outside::Zero)[1], &h.vector));
-        [(1.0, &self.static_load)].into_iter().chain(histories)
+        let varying = self.varying_loads.iter().map(move |load| (load.factor.at(time), &load.vector));
+        [(1.0, &self.static_load)].into_iter().chain(varying)
     }
 
     /// Loads by the shaft's rotation: unbalance at a given speed, angular acceleration, torque of a drive.
@@ -48,7 +46,7 @@ impl System {
         given_speed.into_iter().flatten().chain(drive.into_iter().flatten())
     }
 
-    /// The terms that do work on the coordinates: under a torque drive the constant and tabulated ones alone.
+    /// The terms that do work on the coordinates: under a torque drive the given ones alone.
     pub fn working_terms(&self, time: f64, spin: &Spin) -> impl Iterator<Item = (f64, &DVector<f64>)> {
         let rotating = self.drive.is_none().then(|| self.rotating_terms(spin));
         self.given_terms(time).chain(rotating.into_iter().flatten())

@@ -9,12 +9,12 @@ use nalgebra::{DMatrix, DVector};
 
 use super::interface::Interface;
 use super::panels::Panels;
-use super::system::{Channel, LoadHistory, System};
+use super::system::{Channel, System, VaryingLoad};
 use super::torque::{RotatingUnbalance, TorqueDrive};
 use crate::analysis::equilibrium::Equilibrium;
 use crate::assembly::dense_limit::check_dense;
 use crate::assembly::{Assembly, ModalDamping, PhysicsError};
-use crate::model::{Drive, Model};
+use crate::model::{Drive, LoadFactor, Model};
 use rotordyn_bearing::Rotation;
 use rotordyn_linalg::{SparseMatrix, SparseRow, Triplets, eigen};
 
@@ -103,16 +103,16 @@ pub fn reduce(
     let belt_preload = assembly.belt_stiffness.mul(&equilibrium.q);
     let mut static_load: Vec<f64> =
         (0..n).map(|k| assembly.gravity_load[k] + assembly.static_load[k]).collect();
-    let histories: Vec<(Vec<f64>, Vec<[f64; 2]>)> = model
+    let varying: Vec<(Vec<f64>, LoadFactor)> = model
         .loads
         .iter()
-        .filter(|load| !load.history.is_empty())
+        .filter(|load| !load.factor.is_constant())
         .map(|load| {
             let mut vector = vec![0.0; n];
             for (row, f) in assembly.anchor_rows(&load.at).iter().zip(&load.force) {
                 row.add_to(*f, &mut vector);
             }
-            (vector, load.history.clone())
+            (vector, load.factor.clone())
         })
         .collect();
 
@@ -171,7 +171,7 @@ pub fn reduce(
         let driven = &assembly.anchor_rows(&crate::element::Anchor::node(node))[5];
         forces.extend(assembly.unbalances.iter().map(|u| &u.twist).chain([driven]).map(&dense));
     }
-    forces.extend(histories.iter().map(|(v, _)| v.clone()));
+    forces.extend(varying.iter().map(|(v, _)| v.clone()));
     let basis = basis(&stiffness, &mass, &shapes, modes, &forces)
         .ok_or_else(|| failed("the stiffness at equilibrium is not positive definite".into()))?;
 
@@ -273,9 +273,9 @@ pub fn reduce(
         static_load: vector(&static_load),
         unbalance,
         spin_inertia: vector(&assembly.spin_momentum) * if driven { -1.0 } else { 0.0 },
-        histories: histories
+        varying_loads: varying
             .iter()
-            .map(|(v, points)| LoadHistory { vector: vector(v), points: points.clone() })
+            .map(|(v, factor)| VaryingLoad { vector: vector(v), factor: factor.clone() })
             .collect(),
         interface_map,
         interfaces,

@@ -13,16 +13,16 @@ use super::numbers::vector;
 use super::panels::Panels;
 use super::torque::{DrivenState, TorqueDrive};
 use crate::assembly::PhysicsError;
-use crate::model::{Quantity, SpeedCurve, Spin};
+use crate::model::{LoadFactor, Quantity, SpeedCurve, Spin};
 use rotordyn_bearing::internal::{InternalStep, Motion, NewmarkGain};
 use rotordyn_bearing::{Reaction, Rotation};
 use rotordyn_linalg::panel::Panel;
 
-/// A load p(t) = factor(t) · vector, factor piecewise linear and zero outside its table.
+/// A load p(t) = factor(t) · vector.
 #[derive(Clone, Debug)]
-pub struct LoadHistory {
+pub struct VaryingLoad {
     pub vector: DVector<f64>,
-    pub points: Vec<[f64; 2]>,
+    pub factor: LoadFactor,
 }
 
 /// One output channel (virtual sensor): row · x (or ẋ, ẍ).
@@ -58,7 +58,7 @@ pub struct System {
     pub unbalance: [DVector<f64>; 2],
     /// −Vᵀ M r: inertial load on torsion per unit Ω̇.
     pub spin_inertia: DVector<f64>,
-    pub histories: Vec<LoadHistory>,
+    pub varying_loads: Vec<VaryingLoad>,
     /// Interface map W, rows × coordinates of the structure.
     pub interface_map: DMatrix<f64>,
     pub interfaces: Vec<Interface>,

@@ -80,6 +80,9 @@ codes! {
         "Part of a file was not read: links that lead nowhere or to other files, types that are neither numbers nor texts, \
          damaged or oversized data. All the rest was read.",
         "see the text of the warning; where the part is needed, write the file again with plain arrays";
+    NotImported, "not-imported", Caution,
+        "Part of a file of another program has no counterpart in the model file written from it, or means something else there.",
+        "see the text of the warning; add what matters by hand";
     MeasuredSpeed, "measured-speed", Caution,
         "A measured speed curve is changed or extended to be followed.",
         "look at the curve of the record";
@@ -222,8 +225,12 @@ codes! {
         "Identified poles or shapes rest on hits that are left out or truncated, or on FRFs that are noisy, few or poorly fitted.",
         "see the text of the warning";
     ModelUpdate, "model-update", Caution,
-        "An update has correlated, bounded or poorly determined parameters, or does not explain the measurement.",
+        "An update has correlated or bounded parameters, did not converge, or its data and priors are inconsistent.",
         "free fewer parameters, or measure more";
+    LackOfFit, "lack-of-fit", Serious,
+        "The updated model does not explain the measurement: differences as large as those left have a probability below 1 % \
+         (chi^2 with its degrees of freedom). The fitted values stand for an error of the model elsewhere.",
+        "free a parameter that is named to explain the misfit, and check mode pairs, mapping, signs and units";
     ShaftSpeedNotFound, "shaft-speed-not-found", Caution,
         "A record has no family of shaft harmonics near the stated speed; bearing lines are multiples of the speed.",
         "check speed and sampling rate, or widen --speed-range";

@@ -4,6 +4,8 @@
 //! vector; a second large singular value shows a second mode. Source: Brincker, Zhang & Andersen, Smart Mater. Struct.
 //! 10 (2001) 441.
 
+use std::f64::consts::TAU;
+
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use rotordyn_linalg::{Complex64, eigen, fft_length};
@@ -62,7 +64,9 @@ pub(super) fn decomposition(
             let harmonic = harmonics
                 .iter()
                 .any(|h| !h.removed && (h.frequency - frequency).abs() < h.half_width.max(1.5 * step));
-            SpectralPeak { frequency, shape: first_vector(data, &spectra, lines[at]), height_db, harmonic }
+            let factors = data.to_one_quantity(Complex64::new(0.0, TAU * frequency));
+            let shape = first_vector(&spectra, lines[at]).iter().zip(&factors).map(|(v, s)| v * s).collect();
+            SpectralPeak { frequency, shape: normalise_largest(shape), height_db, harmonic }
         })
         .collect();
     Ok(SpectralDecomposition { frequencies, values, peaks })
@@ -89,7 +93,7 @@ fn spectra(data: &Prepared, segment: usize) -> Vec<Vec<Vec<Complex64>>> {
 }
 
 /// First singular vector over all channels at a line, by iterations S v.
-fn first_vector(data: &Prepared, spectra: &[Vec<Vec<Complex64>>], k: usize) -> Vec<Complex64> {
+fn first_vector(spectra: &[Vec<Vec<Complex64>>], k: usize) -> Vec<Complex64> {
     let segments = spectra[0].len();
     let largest = |v: &Vec<Complex64>| v.iter().map(|x| x.norm_sqr()).sum::<f64>();
     let at = |m: usize| spectra.iter().map(|of| of[m][k]).collect::<Vec<Complex64>>();
@@ -104,26 +108,33 @@ fn first_vector(data: &Prepared, spectra: &[Vec<Vec<Complex64>>], k: usize) -> V
         }
         v = normalise_largest(next);
     }
-    normalise_largest(v.iter().zip(&data.scale).map(|(v, s)| v * *s).collect())
+    v
 }
 
-/// Lines of peaks: highest within ±1.5 % and ±3 lines, and high over the median of the lines within ±30 %.
+/// Height of a line over the median of the lines within ±30 % \[dB\].
+pub(super) fn height_db(frequencies: &[f64], values: &[f64], k: usize) -> f64 {
+    let mut around = values[near(frequencies, k, 0.3, 10)].to_vec();
+    let middle = around.len() / 2;
+    let median = *around.select_nth_unstable_by(middle, f64::total_cmp).1;
+    10.0 * (values[k] / median.max(f64::MIN_POSITIVE)).log10()
+}
+
+/// Lines within a relative range around a line, and at least some.
+fn near(frequencies: &[f64], k: usize, ratio: f64, lines: usize) -> std::ops::Range<usize> {
+    let from = frequencies.partition_point(|f| *f < frequencies[k] * (1.0 - ratio));
+    let to = frequencies.partition_point(|f| *f <= frequencies[k] * (1.0 + ratio));
+    from.min(k.saturating_sub(lines))..to.max((k + lines + 1).min(frequencies.len()))
+}
+
+/// Lines of peaks: highest within ±1.5 % and ±3 lines, and high over the lines around.
 fn peaks(frequencies: &[f64], values: &[f64]) -> Vec<(usize, f64)> {
     let n = values.len();
     let mut out = Vec::new();
     for k in 0..n {
-        let near = |ratio: f64, lines: usize| {
-            let from = frequencies.partition_point(|f| *f < frequencies[k] * (1.0 - ratio));
-            let to = frequencies.partition_point(|f| *f <= frequencies[k] * (1.0 + ratio));
-            from.min(k.saturating_sub(lines))..to.max((k + lines + 1).min(n))
-        };
-        if values[near(0.015, 3)].iter().any(|v| *v > values[k]) {
+        if values[near(frequencies, k, 0.015, 3)].iter().any(|v| *v > values[k]) {
             continue;
         }
-        let mut around = values[near(0.3, 10)].to_vec();
-        let middle = around.len() / 2;
-        let median = *around.select_nth_unstable_by(middle, f64::total_cmp).1;
-        let height = 10.0 * (values[k] / median.max(f64::MIN_POSITIVE)).log10();
+        let height = height_db(frequencies, values, k);
         if height > PEAK_DB && k > 0 && k + 1 < n {
             out.push((k, height));
         }

@@ -31,11 +31,16 @@ const PHASE_COHERENCE: f64 = 0.7;
 /// Parts of the record that the phases are compared over.
 const PHASE_PARTS: usize = 16;
 
+/// Sines of constant frequency in the band, in order of frequency.
+pub(super) fn constant_sines(data: &Prepared) -> Vec<Harmonic> {
+    let all = data.samples.par_iter().flat_map_iter(|samples| whole_record_lines(data, samples)).collect();
+    merged(all, data.rate / data.len() as f64)
+}
+
 /// All sines in the band, in order of frequency.
 pub(super) fn sines(data: &Prepared) -> Vec<Harmonic> {
     let mut all: Vec<Harmonic> =
         data.samples.par_iter().flat_map_iter(|samples| whole_record_lines(data, samples)).collect();
-    let resolution = data.rate / data.len() as f64;
     let wide: Vec<Harmonic> =
         data.samples.par_iter().flat_map_iter(|samples| kurtosis_lines(data, samples)).collect();
     // A line of the finer test says more of the frequency.
@@ -45,6 +50,11 @@ pub(super) fn sines(data: &Prepared) -> Vec<Harmonic> {
             all.push(line);
         }
     }
+    merged(all, data.rate / data.len() as f64)
+}
+
+/// One line for all within its width, in order of frequency.
+fn merged(mut all: Vec<Harmonic>, resolution: f64) -> Vec<Harmonic> {
     all.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
     let mut out: Vec<Harmonic> = Vec::new();
     for line in all {

@@ -6,8 +6,10 @@ use rustfft::FftPlanner;
 
 use super::settings::{OperationalSettings, OutputRecord};
 use crate::IdentifyError;
+use crate::data::derivatives;
 
 /// Responses in the band.
+#[derive(Clone)]
 pub(super) struct Prepared {
     /// `samples[channel][sample]`, over `scale`.
     pub samples: Vec<Vec<f64>>,
@@ -16,14 +18,26 @@ pub(super) struct Prepared {
     pub band: [f64; 2],
     /// RMS of every channel in the band.
     pub scale: Vec<f64>,
+    /// Time derivatives of every channel beyond the channel with the fewest.
+    derivatives: Vec<i32>,
     /// Samples of the record per sample here.
     pub step: f64,
+    /// Samples left out at the start.
+    pub first: usize,
 }
 
 /// Fewest samples of a record.
 const MIN_SAMPLES: usize = 512;
 /// New sampling rate over the upper end of the band, and the start of the transition to zero below.
 const RATE_OVER_BAND: f64 = 2.6;
+/// Parts of the record whose powers are compared.
+const PARTS: usize = 100;
+/// Power over the median of the parts at the start and at the end of a transient. The power of a mode in a part has at least two
+/// degrees of freedom: random forces give a value above 20 in one of 10⁶ parts.
+const TRANSIENT_START: f64 = 20.0;
+const TRANSIENT_END: f64 = 3.0;
+/// Response of a filter to the end of the record, over the inverse of its transition's width.
+const EDGE: f64 = 4.0;
 /// Width of the transition beyond an end of the band, relative to it.
 const TRANSITION: f64 = 0.2;
 
@@ -67,7 +81,15 @@ impl Prepared {
             inverse.process(&mut out);
             out[..kept].iter().map(|v| v.re / padded as f64).collect()
         };
-        let mut out: Vec<Vec<f64>> = record.samples.par_iter().map(one).collect();
+        // At its ends the record is cut off, which the filters answer with a spike.
+        let transitions =
+            [(length < padded).then_some(to), (settings.band.is_some() && from > 0.0).then_some(from)];
+        let narrowest = transitions.into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let rate = record.sample_rate * length as f64 / padded as f64;
+        let edge = ((EDGE / (TRANSITION * narrowest) * rate) as usize).min(kept / 20);
+        let cut = |channel: Vec<f64>| channel[edge..kept - edge].to_vec();
+        let kept = kept - 2 * edge;
+        let mut out: Vec<Vec<f64>> = record.samples.par_iter().map(|channel| cut(one(channel))).collect();
         let mut scale = Vec::with_capacity(out.len());
         for (channel, dof) in out.iter_mut().zip(&record.dofs) {
             let rms = (channel.iter().map(|x| x * x).sum::<f64>() / kept as f64).sqrt();
@@ -78,7 +100,53 @@ impl Prepared {
             scale.push(rms);
         }
         let step = padded as f64 / length as f64;
-        Ok(Self { samples: out, rate: record.sample_rate / step, band, scale, step })
+        let derivatives = record.quantities.iter().map(|quantity| derivatives(*quantity));
+        let fewest = derivatives.clone().min().unwrap_or(0);
+        let derivatives = derivatives.map(|d| d - fewest).collect();
+        Ok(Self {
+            samples: out,
+            rate: record.sample_rate / step,
+            band,
+            scale,
+            derivatives,
+            step,
+            first: edge,
+        })
+    }
+
+    /// The record without its first `count` samples.
+    pub fn without_start(mut self, count: usize) -> Self {
+        self.samples.iter_mut().for_each(|channel| *channel = channel.split_off(count));
+        self.first += count;
+        self
+    }
+
+    /// Length of the transient at the start, such as that of a machine switched on: a hundredth of the record with over
+    /// [`TRANSIENT_START`] times the usual power, up to the first with less than [`TRANSIENT_END`] times. 0 for none, and for one
+    /// that fills a fifth of the record.
+    pub fn transient(&self) -> usize {
+        let length = self.len() / PARTS;
+        let mut over = [0.0f64; PARTS];
+        for samples in &self.samples {
+            let mut powers: Vec<f64> = samples
+                .chunks_exact(length.max(1))
+                .take(PARTS)
+                .map(|part| part.iter().map(|x| x * x).sum())
+                .collect();
+            let own = powers.clone();
+            let usual = *powers.select_nth_unstable_by(PARTS / 2, f64::total_cmp).1;
+            over.iter_mut()
+                .zip(own)
+                .for_each(|(over, power)| *over = over.max(power / usual.max(f64::MIN_POSITIVE)));
+        }
+        let end = over.iter().position(|over| *over < TRANSIENT_END).unwrap_or(PARTS);
+        if over[0] > TRANSIENT_START && end <= PARTS / 5 { end * length } else { 0 }
+    }
+
+    /// Factors that turn a shape of the samples into one of a single quantity in SI units: scale_c λ^(−d_c) for the d_c-th
+    /// derivative of a motion e^{λt}.
+    pub fn to_one_quantity(&self, pole: Complex64) -> Vec<Complex64> {
+        self.scale.iter().zip(&self.derivatives).map(|(s, d)| pole.powi(-d) * *s).collect()
     }
 
     pub fn channels(&self) -> usize {
@@ -103,8 +171,12 @@ fn ramp(x: f64) -> f64 {
 fn check(record: &OutputRecord, settings: &OperationalSettings) -> Result<(), IdentifyError> {
     let fault = |what: &'static str, reason: String| Err(IdentifyError::Setting { what, reason });
     let channels = record.samples.len();
-    if channels == 0 || record.dofs.len() != channels {
-        return fault("channels", format!("{} records for {} points", channels, record.dofs.len()));
+    if channels == 0 || record.dofs.len() != channels || record.quantities.len() != channels {
+        let (points, quantities) = (record.dofs.len(), record.quantities.len());
+        return fault(
+            "channels",
+            format!("{channels} records for {points} points and {quantities} quantities"),
+        );
     }
     let samples = record.samples[0].len();
     if let Some(other) = record.samples.iter().find(|c| c.len() != samples) {

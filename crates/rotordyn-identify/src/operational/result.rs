@@ -97,8 +97,10 @@ pub struct OperationalModes {
     pub band: [f64; 2],
     /// Rate of the correlations \[Hz\], after decimation.
     pub sample_rate: f64,
-    /// Duration of the record \[s\].
+    /// Duration of the record \[s\], without what is left out.
     pub duration: f64,
+    /// Transient at the start that is left out \[s\].
+    pub left_out: f64,
     /// Blocks of the standard errors, and their length \[s\].
     pub blocks: usize,
     pub block_length: f64,

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use rotordyn_linalg::Complex64;
 use rotordyn_signal::record::Dof;
 
 use super::correlation::Correlations;
@@ -116,9 +117,11 @@ pub(super) fn select(search: &Search) -> Result<Selection, IdentifyError> {
 fn mode(search: &Search, chosen: &Chosen, spread: &super::uncertainty::ModeVariance) -> OperationalMode {
     let data = search.data;
     let pole = chosen.candidate.pole.value;
-    let scaled: Vec<_> = chosen.candidate.shape.iter().zip(&data.scale).map(|(v, s)| v * *s).collect();
+    let factors = data.to_one_quantity(pole);
+    let scaled: Vec<_> = chosen.candidate.shape.iter().zip(&factors).map(|(v, s)| v * *s).collect();
     let largest = scaled.iter().map(|v| v.norm()).fold(f64::MIN_POSITIVE, f64::max);
-    let shape_error = spread.shape.iter().zip(&data.scale).map(|(v, s)| v.sqrt() * s / largest).collect();
+    let shape_error: Vec<f64> =
+        spread.shape.iter().zip(&factors).map(|(v, s)| v.sqrt() * s.norm() / largest).collect();
     let (frequency_error, damping_error) = standard_errors(pole, spread.pole);
     let energy: f64 = search.correlations.mean.iter().map(|r| r.norm_squared()).sum();
     let lags = search.correlations.mean.len();
@@ -127,15 +130,24 @@ fn mode(search: &Search, chosen: &Chosen, spread: &super::uncertainty::ModeVaria
         pole,
         frequency_error,
         damping_error,
-        shape_error,
         collinearity: mac::phase_collinearity(&shape),
-        whirl: whirl::whirl(search.dofs, &shape),
+        whirl: moves_across(search.dofs, &shape, &shape_error)
+            .then(|| whirl::whirl(search.dofs, &shape))
+            .flatten(),
         contribution: search.space.contribution(chosen.model, chosen.vector, lags, energy),
         support: chosen.support,
         order: search.orders[chosen.candidate.order],
         shape,
+        shape_error,
         notes: Vec::new(),
     }
+}
+
+/// Whether a shape moves across the shaft by more than twice its standard error; a torsional one may not.
+fn moves_across(dofs: &[Dof], shape: &[Complex64], error: &[f64]) -> bool {
+    let across = || (0..dofs.len()).filter(|&k| matches!(dofs[k].direction.abs(), 1 | 2));
+    let moved: f64 = across().map(|k| shape[k].norm_sqr()).sum();
+    moved > 4.0 * across().map(|k| error[k] * error[k]).sum::<f64>()
 }
 
 /// Separates modes from harmonics and spurious poles; names what is doubtful.
@@ -159,6 +171,10 @@ fn judge(search: &Search, all: Vec<OperationalMode>) -> Selection {
                 "{name}: spurious, or too weak: the standard error of its damping is {:.0} %",
                 100.0 * mode.damping_error / zeta
             ));
+            continue;
+        }
+        if let Some(end) = search.data.band.into_iter().find(|end| (end - hz).abs() < zeta * hz) {
+            out.dropped.push(format!("{name}: its peak reaches beyond the band, which ends at {end:.3} Hz"));
             continue;
         }
         if let Some(line) = lines(search).find(|h| (h.frequency - hz).abs() < 0.5 * zeta * hz) {

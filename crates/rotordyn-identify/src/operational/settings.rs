@@ -1,5 +1,6 @@
 //! Input of an output-only identification: the record, the shaft, the settings.
 
+use rotordyn_signal::Quantity;
 use rotordyn_signal::record::Dof;
 
 /// Simultaneously sampled responses of a machine under unknown broadband forces.
@@ -11,6 +12,8 @@ pub struct OutputRecord {
     pub sample_rate: f64,
     /// Point and direction of every channel.
     pub dofs: Vec<Dof>,
+    /// Quantity of every channel; shapes of records with several are displacements.
+    pub quantities: Vec<Quantity>,
 }
 
 /// What is known of the rotation of the shaft during the record.
@@ -39,7 +42,8 @@ pub struct OperationalSettings {
     /// Largest damping ratio of a mode.
     pub largest_damping: f64,
     pub shaft: Shaft,
-    /// Orders removed beside the multiples of the shaft speed, such as the ball-pass order.
+    /// Orders looked for in addition to the multiples of the shaft speed, such as the ball-pass order; at a steady speed each is
+    /// refined within 1.5 %, which balls that slip need.
     pub orders: Vec<f64>,
     /// Relative range around a steady speed in which its harmonics are looked for.
     pub speed_tolerance: f64,

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use rotordyn_identify::operational::OutputRecord;
+use rotordyn_signal::Quantity;
 use rotordyn_signal::record::Dof;
 
 /// Gaussian numbers of a seed (splitmix64, Box-Muller).
@@ -37,6 +38,8 @@ pub struct Machine {
     pub sensor_noise: f64,
     /// Pole of the AR(1) filter of the forces; 0 is white.
     pub colour: f64,
+    /// Displacements at the first points, velocities at the others.
+    pub displacements: usize,
 }
 
 /// Bending shape k of a beam at n points.
@@ -47,7 +50,7 @@ pub fn shape(k: usize, n: usize) -> Vec<f64> {
 impl Machine {
     pub fn new(modes: &[(f64, f64)], channels: usize, rate: f64, duration: f64) -> Self {
         let list = modes.iter().enumerate().map(|(k, &(hz, zeta))| (hz, zeta, shape(k + 1, channels)));
-        Machine { modes: list.collect(), rate, duration, sensor_noise: 0.05, colour: 0.0 }
+        Machine { modes: list.collect(), rate, duration, sensor_noise: 0.05, colour: 0.0, displacements: 0 }
     }
 
     /// Damped frequency of a mode [Hz].
@@ -60,7 +63,7 @@ impl Machine {
         (self.rate * self.duration) as usize
     }
 
-    /// Velocities at all points. Each mode is integrated exactly for forces that are constant within a sample, so that its
+    /// Motion at all points. Each mode is integrated exactly for forces that are constant within a sample, so that its
     /// poles are those of the machine.
     pub fn record(&self, seed: u64) -> OutputRecord {
         let mut noise = Noise::new(seed);
@@ -94,8 +97,9 @@ impl Machine {
             }
             if k >= warm {
                 for (p, channel) in samples.iter_mut().enumerate() {
-                    channel
-                        .push(state.iter().zip(&self.modes).map(|(x, (_, _, shape))| x[1] * shape[p]).sum());
+                    let derivative = usize::from(p >= self.displacements);
+                    let modes = state.iter().zip(&self.modes);
+                    channel.push(modes.map(|(x, (_, _, shape))| x[derivative] * shape[p]).sum());
                 }
             }
         }
@@ -107,6 +111,9 @@ impl Machine {
             samples,
             sample_rate: self.rate,
             dofs: (0..channels).map(|k| Dof::new(k as i64 + 1, 2)).collect(),
+            quantities: (0..channels)
+                .map(|p| if p < self.displacements { Quantity::Displacement } else { Quantity::Velocity })
+                .collect(),
         }
     }
 }

@@ -1,10 +1,12 @@
 //! All modes are found, and nothing else.
 
+use std::f64::consts::TAU;
+
 use rotordyn_identify::mac::mac;
 use rotordyn_identify::operational::{OperationalModes, OperationalSettings, identify_operational};
 use rotordyn_linalg::Complex64;
 
-use crate::machine::Machine;
+use crate::machine::{Machine, rms};
 
 pub fn print(found: &OperationalModes) {
     for m in &found.modes {
@@ -104,4 +106,50 @@ fn short_record_is_named() {
     assert!(text.contains("at 10.") || text.contains("at 9.9"), "{text}");
     let high = found.modes.iter().find(|m| (m.frequency_hz() - 45.0).abs() < 1.0).unwrap();
     assert!(high.notes.is_empty() && found.warnings.len() == 1, "{:?}", found.warnings);
+}
+
+/// Displacements at two points and velocities at four: the shapes are those of one quantity, with their phase.
+#[test]
+fn shapes_of_displacements_and_velocities() {
+    let modes = [(12.0, 0.01), (31.0, 0.006), (47.0, 0.02)];
+    let machine = Machine { displacements: 2, ..Machine::new(&modes, 6, 160.0, 600.0) };
+    let found = identify_operational(&machine.record(7), &OperationalSettings::default()).unwrap();
+    check(&machine, &found);
+    for (k, (_, zeta, shape)) in machine.modes.iter().enumerate() {
+        let shape: Vec<Complex64> = shape.iter().map(|v| Complex64::from(*v)).collect();
+        let width = (zeta * machine.hz(k)).max(0.3);
+        let peak = found.spectrum.peaks.iter().find(|p| (p.frequency - machine.hz(k)).abs() < width).unwrap();
+        assert!(mac(&peak.shape, &shape) > 0.9, "peak of mode {k}");
+    }
+}
+
+/// Two weak low modes below strong ones of ten times their frequency: the band is taken apart where their peaks are left over.
+#[test]
+fn weak_low_modes_of_a_wide_band() {
+    let modes = [(24.0, 0.005), (29.0, 0.005), (160.0, 0.012), (222.0, 0.03), (300.0, 0.04), (380.0, 0.02)];
+    let mut machine = Machine::new(&modes, 8, 1000.0, 400.0);
+    machine.modes[..2].iter_mut().for_each(|(_, _, shape)| shape.iter_mut().for_each(|v| *v *= 0.25));
+    machine.sensor_noise = 0.01;
+    let found = identify_operational(&machine.record(9), &OperationalSettings::default()).unwrap();
+    check(&machine, &found);
+}
+
+/// A free decay of 60 times the usual level at the start, as of a machine switched on: left out, so that it moves no mode.
+#[test]
+fn transient_at_the_start() {
+    let modes = [(12.0, 0.01), (31.0, 0.006), (47.0, 0.02)];
+    let machine = Machine::new(&modes, 6, 160.0, 600.0);
+    let mut record = machine.record(10);
+    for (channel, shape) in record.samples.iter_mut().zip(&machine.modes[0].2) {
+        let level = 60.0 * rms(channel) * shape;
+        for (k, x) in channel.iter_mut().enumerate() {
+            let t = k as f64 / machine.rate;
+            // Near the first mode, and not of it.
+            *x += level * (-t / 3.0).exp() * (TAU * 12.4 * t).cos();
+        }
+    }
+    let found = identify_operational(&record, &OperationalSettings::default()).unwrap();
+    check(&machine, &found);
+    assert!((6.0..60.0).contains(&found.left_out), "{}", found.left_out);
+    assert!(found.warnings.is_empty(), "{:?}", found.warnings);
 }

@@ -6,8 +6,7 @@ use crate::error::Error;
 use crate::hdf5::read_recording;
 use crate::hdf5::{Attribute, Reader};
 use crate::results_file::history_of;
-use rotordyn_linalg::{Outside, piecewise};
-use rotordyn_model::{self as model, Load, Model, Options, Quantity};
+use rotordyn_model::{self as model, Load, LoadFactor, Model, Options, Quantity};
 use rotordyn_signal::impact::{Hit, ImpactWindows, frf_from_hits};
 use rotordyn_signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Record, Values};
 
@@ -38,13 +37,14 @@ pub fn impact_frfs_windowed(
         return Ok(None);
     }
     let Some(model) = stored_model(store)? else { return Ok(None) };
-    let varying: Vec<&Load> = model.loads.iter().filter(|l| !l.history.is_empty()).collect();
+    let varying: Vec<&Load> = model.loads.iter().filter(|l| !l.factor.is_constant()).collect();
     let [load] = varying[..] else { return Ok(None) };
+    // A random force is no hit.
+    let LoadFactor::Table(points) = &load.factor else { return Ok(None) };
     let history = history_of(&read_recording(store, "")?);
-    let (Some(first), Some(last)) = (load.history.first(), load.history.last()) else { return Ok(None) };
+    let (Some(first), Some(last)) = (points.first(), points.last()) else { return Ok(None) };
     let (size, direction) = magnitude_and_direction(&load.force);
-    let load_factor = |t: &f64| piecewise(&load.history, *t, Outside::Zero)[1];
-    let force: Vec<f64> = history.time.all()?.iter().map(|t| size * load_factor(t)).collect();
+    let force: Vec<f64> = history.time.all()?.iter().map(|t| size * load.factor.at(*t)).collect();
     let node = |at: &rotordyn_core::element::Anchor| match at.node {
         Some(node) if at.offset == [0.0; 3] => node as i64 + 1,
         _ => 0,
@@ -94,7 +94,7 @@ fn magnitude_and_direction(force: &[f64; 6]) -> (f64, i8) {
 }
 
 /// The model with which the run was computed.
-fn stored_model(store: &dyn Reader) -> Result<Option<Model>, Error> {
+pub(super) fn stored_model(store: &dyn Reader) -> Result<Option<Model>, Error> {
     let text = |name: &str| -> Result<Option<String>, Error> {
         Ok(match store.attribute("/meta", name)? {
             Some(Attribute::Text(text)) => Some(text),

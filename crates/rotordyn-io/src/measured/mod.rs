@@ -21,6 +21,8 @@ pub mod hdf5_records;
 #[cfg(feature = "hdf5")]
 pub mod impact_run;
 pub mod mapping;
+#[cfg(feature = "hdf5")]
+pub mod operating_run;
 mod record_arrays;
 pub mod run_up;
 mod signal_calc;

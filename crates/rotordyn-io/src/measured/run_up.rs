@@ -103,7 +103,7 @@ fn listed(names: &[&str]) -> String {
 }
 
 /// Quantity of a unit, translational or rotational.
-fn quantity(unit: &str) -> Option<Quantity> {
+pub fn quantity(unit: &str) -> Option<Quantity> {
     match unit {
         "m" | "rad" => Some(Quantity::Displacement),
         "m/s" | "rad/s" => Some(Quantity::Velocity),

@@ -96,11 +96,22 @@ keys! {
     static LINEAR_BEARING: LinearKeys {
         speed: Quantities = quantities(not_negative(SPEED), "one or more, increasing",
             "Speeds of a table; every component then has one value or one per speed.").default("0 rpm");
-        beyond_table: Words<BeyondTable> = words(&[("hold", BeyondTable::Hold), ("refuse", BeyondTable::Refuse)],
-            "At speeds beyond a table of two or more: its last value, or an error.").default("hold")
+        whirl_frequency: Quantities = quantities(not_negative(SPEED), "two or more, increasing",
+            "Frequencies of motion of a table, one value per frequency for each speed; only FRFs take others than the speed.").optional().example("\"0, 50, 100 Hz\"");
+        beyond_table: Words<BeyondTable> = words(BEYOND,
+            "At speeds beyond a table of two or more: its last value, an error, or on along the last slope.").default("hold")
             .with("speed = \"0, 3000 rpm\"");
     }
 }
+
+/// Rows of a table over speed and whirl frequency, each of two matrices; more are no measurement.
+const MAX_TABLE_ROWS: usize = 20_000;
+
+const BEYOND: &[(&str, BeyondTable)] = &[
+    ("hold", BeyondTable::Hold),
+    ("refuse", BeyondTable::Refuse),
+    ("extrapolate", BeyondTable::Extrapolate),
+];
 
 pub(super) fn read(
     top: &Reader,
@@ -181,7 +192,7 @@ fn bearing(r: &Reader, context: &Context) -> Bearing {
     }
     if unknown_kind(r) {
         r.entries();
-        return LinearBearing { table: Vec::new(), beyond: BeyondTable::Hold }.into();
+        return LinearBearing::default().into();
     }
     r.choice(&BEARING.model).map_or_else(
         || {
@@ -191,7 +202,7 @@ fn bearing(r: &Reader, context: &Context) -> Bearing {
                 let problem = Problem::new(Kind::UnknownKey, &entry.key_span, message);
                 r.log.error(problem.hint("did you mean `model`?"));
             }
-            LinearBearing { table: Vec::new(), beyond: BeyondTable::Hold }.into()
+            LinearBearing::default().into()
         },
         |read| read(r, context),
     )
@@ -234,9 +245,24 @@ fn unknown_kind(r: &Reader) -> bool {
 fn linear(r: &Reader) -> LinearBearing {
     let speeds = r.list(&LINEAR_BEARING.speed).unwrap_or_else(|| vec![0.0]);
     check_increasing(r, &LINEAR_BEARING.speed, &speeds);
+    let whirl = r.list(&LINEAR_BEARING.whirl_frequency).unwrap_or_default();
+    check_increasing(r, &LINEAR_BEARING.whirl_frequency, &whirl);
+    if whirl.len() == 1 && r.has_no_errors() {
+        let message = format!("{} has one value", r.name(&LINEAR_BEARING.whirl_frequency));
+        let problem = Problem::new(Kind::WrongType, &r.span_of(&LINEAR_BEARING.whirl_frequency), message);
+        r.log.error(problem.expected("two or more frequencies, or none"));
+    }
+    if speeds.len().saturating_mul(whirl.len()) > MAX_TABLE_ROWS {
+        let message = format!("{} speeds times {} frequencies", speeds.len(), whirl.len());
+        let problem = Problem::new(Kind::OutOfRange, &r.span_of(&LINEAR_BEARING.whirl_frequency), message);
+        r.log.error(problem.expected(format!("at most {MAX_TABLE_ROWS} of both")));
+        r.entries();
+        return LinearBearing::default();
+    }
+    let speeds: Vec<f64> = speeds.into_iter().flat_map(|speed| vec![speed; whirl.len().max(1)]).collect();
     let stiffness = BEARING_STIFFNESS.table(r, speeds.len());
     let damping = BEARING_DAMPING.table(r, speeds.len());
-    if r.has_no_errors() && stiffness.iter().flatten().flatten().all(|&k| k == 0.0) {
+    if r.has_no_errors() && stiffness.iter().chain(&damping).flatten().flatten().all(|&k| k == 0.0) {
         r.missing_or(BEARING_STIFFNESS.component(0, 0), " (and k_yy)");
     }
     let beyond = r.word(&LINEAR_BEARING.beyond_table);
@@ -246,6 +272,7 @@ fn linear(r: &Reader) -> LinearBearing {
     let rows = speeds.into_iter().zip(stiffness).zip(damping);
     LinearBearing {
         beyond,
+        whirl,
         table: rows
             .map(|((speed, stiffness), damping)| LinearBearingRow { speed, stiffness, damping })
             .collect(),

@@ -10,7 +10,7 @@ use crate::file::key::{
     not_negative, quantities, quantity, text, texts, words,
 };
 use crate::file::reader::Reader;
-use rotordyn_core::element::{Belt, Bushing, Joint};
+use rotordyn_core::element::{Anchor, Belt, Bushing, Joint};
 use rotordyn_units::{DAMPING, FORCE, STIFFNESS, TILT_DAMPING, TILT_STIFFNESS};
 
 keys! {
@@ -26,6 +26,7 @@ static BUSHING: Table = Table {
     meaning: "Springs and dampers between two places.",
     groups: &[
         Group::always(BetweenKeys::LIST),
+        Group::always(BushingKeys::LIST),
         Group::always(&PASSIVE_STIFFNESS_LIST),
         Group::always(&PASSIVE_DAMPING_LIST),
         Group::always(MatrixKeys::LIST),
@@ -36,6 +37,16 @@ static JOINT: Table = Table {
     meaning: "An exact constraint between two places.",
     groups: &[Group::always(BetweenKeys::LIST), Group::always(JointKeys::LIST)],
 };
+
+keys! {
+    /// Of `[bushing.x]`.
+    static OWN: BushingKeys {
+        unsymmetric: Flag = flag("Whether unsymmetric matrices are accepted, which may bring in energy, as those of fluid films.")
+            .default("false");
+        lever_arms: Flag = flag("Whether it acts at one point, with lever arms to both places; otherwise on their displacements, \
+            as a coupling without length.").default("true");
+    }
+}
 
 keys! {
     /// `[joint.x]`.
@@ -69,9 +80,13 @@ keys! {
 
 pub(super) fn bushings(top: &Reader, places: &Places) -> Vec<Bushing> {
     let read = |(name, r): (&str, Reader)| {
-        let [a, b] = places.between(&r);
-        let stiffness = PASSIVE_STIFFNESS.matrix(&r);
-        let damping = PASSIVE_DAMPING.matrix(&r);
+        let [mut a, mut b] = places.between(&r);
+        if !r.flag(&OWN.lever_arms) {
+            [a, b] = [a, b].map(|end| Anchor { offset: [0.0; 3], ..end });
+        }
+        let passive = !r.flag(&OWN.unsymmetric);
+        let stiffness = PASSIVE_STIFFNESS.matrix_of(&r, passive);
+        let damping = PASSIVE_DAMPING.matrix_of(&r, passive);
         if r.has_no_errors() && stiffness.iter().chain(&damping).flatten().all(|&v| v == 0.0) {
             r.missing_or(PASSIVE_STIFFNESS.diagonal(0), " or another component of stiffness or damping");
         }

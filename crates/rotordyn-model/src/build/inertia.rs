@@ -7,8 +7,8 @@ use super::springs::{
 };
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{
-    Group, NamedTables, Quantities, Quantity, Table, Text, any, keys, named_tables, not_negative, positive,
-    quantities, quantity, text,
+    Group, Key, NamedTables, Quantities, Quantity, Table, Text, any, keys, named_tables, not_negative,
+    positive, quantities, quantity, text,
 };
 use crate::file::reader::Reader;
 use rotordyn_core::element::{Bushing, Disc, Material, PointMass, RigidBody};
@@ -53,7 +53,8 @@ keys! {
             .default("0, 0, 0 m").with("station = \"A\"").example("\"0, -60, 0 mm\"");
         position: Quantities = quantities(any(LENGTH), "three: x, y, z", "Position of the centre of mass.")
             .required("or station").example("\"0, -230, 270 mm\"");
-        mass: Quantity = quantity(positive(MASS), "Mass.");
+        mass: Quantities = quantities(positive(MASS), "one, or three: x, y, z",
+            "Mass; by axis for the modal mass of a support.").example("\"1.5 kg\"");
         inertia: Quantities = quantities(any(INERTIA), "one, or three: xx, yy, zz",
             "Moments of inertia about the centre of mass.");
         inertia_products: Quantities = quantities(any(INERTIA), "three: xy, yz, zx",
@@ -85,12 +86,13 @@ static HOUSING_TABLE: Table = Table {
 keys! {
     /// Of `[sensor.x]`.
     static SENSOR: SensorKeys {
-        mass: Quantity = quantity(positive(MASS), "Mass.");
+        mass: Quantities = quantities(not_negative(MASS), "one, or three: x, y, z",
+            "Mass; by axis for the added mass of a seal or the like.").example("\"0.05 kg\"");
     }
 }
 
 static SENSOR_TABLE: Table = Table {
-    meaning: "A point mass, such as an accelerometer.",
+    meaning: "A point mass, such as an accelerometer or the added mass of a seal.",
     groups: &[Group::always(AnchorKeys::LIST), Group::always(SensorKeys::LIST)],
 };
 
@@ -224,7 +226,7 @@ fn body(name: &str, r: &Reader, places: &Places) -> RigidBody {
             [0.0; 3]
         }
     };
-    let mass = r.value(&BODY.mass);
+    let mass = axis_masses(r, &BODY.mass);
     let moments = r.need_list(&BODY.inertia);
     let products = r.list(&BODY.inertia_products).unwrap_or_else(|| vec![0.0; 3]);
     let [xx, yy, zz] = match moments[..] {
@@ -255,10 +257,32 @@ fn body(name: &str, r: &Reader, places: &Places) -> RigidBody {
     RigidBody { name: name.into(), position, mass, inertia }
 }
 
+/// A mass along x, y and z: one value for all, or three.
+fn axis_masses(r: &Reader, key: &Key<Quantities>) -> [f64; 3] {
+    match r.need_list(key)[..] {
+        [all] => [all; 3],
+        [x, y, z] => [x, y, z],
+        _ => {
+            let message = format!("{} is one value or three (x, y, z)", r.name(key));
+            r.error(Kind::WrongType, key, message);
+            [1.0; 3]
+        }
+    }
+}
+
 /// `[sensor.x]`: point masses.
 pub(super) fn masses(top: &Reader, places: &Places) -> Vec<PointMass> {
     let read = |(name, r): (&str, Reader)| {
-        let mass = PointMass { name: name.into(), anchor: places.anchor(&r), mass: r.value(&SENSOR.mass) };
+        let mass = axis_masses(&r, &SENSOR.mass);
+        let mass = PointMass { name: name.into(), anchor: places.anchor(&r), mass };
+        if mass.mass == [0.0; 3] && r.has_no_errors() {
+            let problem = Problem::new(
+                Kind::OutOfRange,
+                &r.span_of(&SENSOR.mass),
+                format!("{} is zero", r.name(&SENSOR.mass)),
+            );
+            r.log.error(problem.expected("a mass greater than zero along one axis at least"));
+        }
         if mass.anchor.node.is_none() && r.has_no_errors() {
             r.error(Kind::Conflict, &ANCHOR.at, format!("{} is on ground, where it has no effect", r.path));
         }

@@ -5,15 +5,15 @@ use super::measured_speed::{self, MeasuredKeys};
 use super::places::{ANCHOR, AnchorKeys, Places};
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{
-    Declared, Group, NamedTables, Quantities, Quantity, SubTable, Table, Text, Words, any, below, keys,
-    named_tables, not_negative, positive, quantities, quantity, sub_table, text, words,
+    Count, Declared, Group, NamedTables, Quantities, Quantity, SubTable, Table, Text, Words, any, below,
+    count, keys, named_tables, not_negative, positive, quantities, quantity, sub_table, text, words,
 };
 use crate::file::reader::Reader;
 use crate::file::tree::Value;
-use crate::{Damping, Drive, ExternalFile, Load, Probe, SpeedProfile, Unbalance};
+use crate::{BandNoise, Damping, Drive, ExternalFile, Load, LoadFactor, Probe, SpeedProfile, Unbalance};
 use rotordyn_core::element::Anchor;
 use rotordyn_units::{
-    ANGLE, FORCE, FREQUENCY, LENGTH, MASS, MOMENT, NUMBER, RATE, SPEED, TILT_DAMPING, TIME, UNBALANCE,
+    ANGLE, FORCE, FREQUENCY, LENGTH, MASS, MOMENT, NUMBER, RATE, SPEED, TILT_DAMPING, TIME, UNBALANCE, names,
 };
 
 keys! {
@@ -49,19 +49,23 @@ keys! {
 keys! {
     /// `[load.x]`.
     pub(super) static LOAD: LoadKeys {
-        force: Quantities = quantities(any(FORCE), "three: x, y, z", "Force, constant or times factor.")
+        force: Quantities = quantities(any(FORCE), "three: x, y, z", "Force, constant, times factor or random.")
             .required("or moment").example("\"0, -100, 0 N\"");
-        moment: Quantities = quantities(any(MOMENT), "three: about x, y, z", "Moment, constant or times factor.")
+        moment: Quantities = quantities(any(MOMENT), "three: about x, y, z", "Moment, constant, times factor or random.")
             .required("or force").example("\"0, 0, 12 N m\"");
         time: Quantities = quantities(any(TIME), "one or more, increasing", "Times of a load history.")
             .required("with factor").with("factor = [0, 1]").example("\"0, 0.1 s\"");
         factor: Quantities = quantities(any(NUMBER), "as many as time", "Factor of the load at these times.")
             .required("with time").with("time = \"0, 0.1 s\"").example("[0, 1]");
+        band: Quantities = quantities(not_negative(FREQUENCY), "two, increasing", "Frequencies between which the spectrum of a random load is flat; force and moment are its RMS values.")
+            .optional().example("\"5, 500 Hz\"");
+        seed: Count = count([0, 999_999_999], "Random course of a load with a band: the same for equal seeds.")
+            .computed("one of its own, from the load's name").with("band = \"5, 500 Hz\"");
     }
 }
 
 static LOAD_TABLE: Table = Table {
-    meaning: "A force or moment, constant in the axes of the model or over time; constant loads act in statics.",
+    meaning: "A force or moment in the axes of the model: constant, over time or random; constant loads act in statics.",
     groups: &[Group::always(AnchorKeys::LIST), Group::always(LoadKeys::LIST)],
 };
 
@@ -241,6 +245,43 @@ fn balance_grade(r: &Reader) -> f64 {
     }
 }
 
+/// How a load goes over time: a table, a random course, or constant.
+fn load_factor(name: &str, r: &Reader) -> LoadFactor {
+    let over_time = r.has(&LOAD.time) || r.has(&LOAD.factor);
+    if !r.has(&LOAD.band) {
+        if r.has(&LOAD.seed) {
+            r.missing(&LOAD.band);
+        }
+        if !over_time {
+            return LoadFactor::Constant;
+        }
+        let (time, factor) = (r.need_list(&LOAD.time), r.need_list(&LOAD.factor));
+        return LoadFactor::Table(table(r, (&LOAD.time, &time), (&LOAD.factor, &factor)));
+    }
+    if over_time {
+        let message = format!("{} has a random course (band) and one over time (time, factor)", r.path);
+        r.error(Kind::Conflict, &LOAD.band, message);
+    }
+    let seed = match r.has(&LOAD.seed) {
+        true => r.count_or(&LOAD.seed, 0) as u64,
+        // Beyond all seeds of files.
+        false => 1 << 32 | u64::from(names::hash(name)),
+    };
+    let band = r.need_list(&LOAD.band);
+    let noise = <[f64; 2]>::try_from(band).ok().and_then(|band| BandNoise::new(band, seed).ok());
+    match noise {
+        Some(noise) => LoadFactor::Random(noise),
+        None => {
+            if r.has_no_errors() {
+                let message = format!("{} is no frequency band", r.name(&LOAD.band));
+                let problem = Problem::new(Kind::BadQuantity, &r.span_of(&LOAD.band), message);
+                r.log.error(problem.expected("a lower and a higher frequency, such as \"5, 500 Hz\""));
+            }
+            LoadFactor::Constant
+        }
+    }
+}
+
 pub(super) fn loads(top: &Reader, places: &Places) -> Vec<Load> {
     let read = |(name, r): (&str, Reader)| {
         let at = places.anchor(&r);
@@ -254,13 +295,9 @@ pub(super) fn loads(top: &Reader, places: &Places) -> Vec<Load> {
             r.missing(&LOAD.force);
         }
         let (f, m) = (force.unwrap_or_default(), moment.unwrap_or_default());
-        let mut history = Vec::new();
-        if r.has(&LOAD.time) || r.has(&LOAD.factor) {
-            let (time, factor) = (r.need_list(&LOAD.time), r.need_list(&LOAD.factor));
-            history = table(&r, (&LOAD.time, &time), (&LOAD.factor, &factor));
-        }
+        let factor = load_factor(name, &r);
         r.finish();
-        Load { name: name.into(), at, force: [f[0], f[1], f[2], m[0], m[1], m[2]], history }
+        Load { name: name.into(), at, force: [f[0], f[1], f[2], m[0], m[1], m[2]], factor }
     };
     top.items(&TOP.load).into_iter().map(read).collect()
 }

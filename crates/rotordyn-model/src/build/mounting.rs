@@ -176,7 +176,7 @@ pub(super) fn check_axial_location(sites: &[(&str, Reader)], model: &Model, log:
     });
     let joint = model.joints.iter().any(|j| on_shaft(j.a.node) != on_shaft(j.b.node) && j.locked[2]);
     let pushed = model.gravity[2] != 0.0
-        || model.loads.iter().any(|l| on_shaft(l.at.node) && l.history.is_empty() && l.force[2] != 0.0);
+        || model.loads.iter().any(|l| on_shaft(l.at.node) && l.factor.is_constant() && l.force[2] != 0.0);
     if held || joint || pushed {
         return;
     }

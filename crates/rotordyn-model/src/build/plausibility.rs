@@ -241,7 +241,7 @@ fn bearing_speeds(top: &Reader, model: &Model) {
 
 /// Unbalance of the rotor over its mass, times the highest speed of the profile.
 fn balance_quality(top: &Reader, model: &Model) {
-    let shaft = model.shaft.iter().map(|e| {
+    let shaft = model.shaft.iter().flat_map(|e| e.with_layers()).map(|e| {
         let area = |k: usize| PI / 4.0 * (e.outer_diameter[k].powi(2) - e.inner_diameter[k].powi(2));
         0.5 * (area(0) + area(1)) * e.length * e.material.density
     });

@@ -35,18 +35,48 @@ keys! {
         minimum_spacing: Quantity = quantity(positive(LENGTH), "Smallest distance of nodes.").default("100 um");
         section: TableList = table_list(&SECTION_TABLE).required("")
             .example("[{ length = \"625 mm\", outer_diameter = \"25 mm\" }]");
+        layer: TableList = table_list(&LAYER_TABLE).optional()
+            .example("[{ from = \"100 mm\", length = \"50 mm\", outer_diameter = \"40 mm\", inner_diameter = \"25 mm\" }]");
     }
 }
 
 static SECTION_TABLE: Table = Table {
     meaning: "A cylinder or cone, solid or hollow; properties of the shaft may be overridden.",
-    groups: &[Group::always(SectionKeys::LIST), Group::always(PropertyKeys::LIST)],
+    groups: &[
+        Group::always(PlaceKeys::LIST),
+        Group::always(SectionKeys::LIST),
+        Group::always(PropertyKeys::LIST),
+    ],
+};
+
+static LAYER_TABLE: Table = Table {
+    meaning: "A sleeve on the shaft's nodes, whose stiffness and inertia are added to those of the sections; nodes are at its ends.",
+    groups: &[
+        Group::always(LayerKeys::LIST),
+        Group::always(SectionKeys::LIST),
+        Group::always(PropertyKeys::LIST),
+    ],
 };
 
 keys! {
-    /// Of `[[shaft.section]]`.
-    static SECTION: SectionKeys {
+    /// Of `[[shaft.section]]` only.
+    static PLACE: PlaceKeys {
         from: Quantity = quantity(any(LENGTH), "Position of its first end.").computed("the end of the previous section");
+        gap: Flag = flag("Whether there is no shaft, only what connects its ends, such as a coupling; diameters are for drawings.")
+            .default("false");
+    }
+}
+
+keys! {
+    /// Of `[[shaft.layer]]` only.
+    static LAYER: LayerKeys {
+        from: Quantity = quantity(any(LENGTH), "Position of its first end, on the shaft.").example("\"100 mm\"");
+    }
+}
+
+keys! {
+    /// Of sections and layers.
+    static SECTION: SectionKeys {
         to: Quantity = quantity(any(LENGTH), "Position of its other end.").required("or length");
         length: Quantity = quantity(positive(LENGTH), "Length.").required("or to").example("\"625 mm\"");
         outer_diameter: Quantity = quantity(positive(LENGTH), "Outer diameter, of a cone at its first end.")
@@ -107,7 +137,7 @@ impl MeshedShaft {
         let mass = |e: &ShaftElement| {
             e.material.density * PI / 4.0 * e.length * (square(e.outer_diameter) - square(e.inner_diameter))
         };
-        self.elements.iter().map(mass).sum::<f64>()
+        self.elements.iter().flat_map(ShaftElement::with_layers).map(mass).sum::<f64>()
             + self.rigid_rotor.as_ref().map_or(0.0, |rotor| rotor.mass)
     }
 }
@@ -132,6 +162,7 @@ struct Section {
     outer: [f64; 2],
     inner: [f64; 2],
     properties: Properties,
+    gap: bool,
 }
 
 impl Section {
@@ -162,6 +193,7 @@ pub(super) fn read(top: &Reader, materials: &[Material]) -> MeshedShaft {
     let spacing = r.value(&SHAFT.minimum_spacing);
     let common = properties(&r, None, materials);
     let sections = sections(&r, start, &common, materials);
+    let layers = layers(&r, &sections, &common, materials);
     let before = r.log.error_count();
     let sound = r.has_no_errors();
     r.finish();
@@ -171,7 +203,7 @@ pub(super) fn read(top: &Reader, materials: &[Material]) -> MeshedShaft {
         // keep the stations so that references to them still resolve
         return MeshedShaft { stations, ..MeshedShaft::default() };
     }
-    mesh(top, &sections, stations, spacing)
+    mesh(top, [&sections, &layers], stations, spacing)
 }
 
 fn properties(r: &Reader, common: Option<&Properties>, materials: &[Material]) -> Properties {
@@ -217,36 +249,63 @@ fn sections(r: &Reader, start: f64, common: &Properties, materials: &[Material])
     let mut sections: Vec<Section> = Vec::new();
     let mut end = start;
     for s in r.tables(&SHAFT.section) {
-        let from = s.or(&SECTION.from, end);
+        let from = s.or(&PLACE.from, end);
+        let section = Section { gap: s.flag(&PLACE.gap), ..section(&s, from, common, materials) };
         if (from - end).abs() > RELATIVE_POSITION_TOLERANCE * (from.abs() + end.abs()) && s.has_no_errors() {
             let word = if from > end { "leaves a gap after" } else { "overlaps" };
             let other = if sections.is_empty() { "the shaft's start" } else { "the previous section" };
-            let message = format!("{} {word} {other}, which ends at {end} m", s.name(&SECTION.from));
-            s.error(Kind::Geometry, &SECTION.from, message);
+            let message = format!("{} {word} {other}, which ends at {end} m", s.name(&PLACE.from));
+            s.error(Kind::Geometry, &PLACE.from, message);
         }
-        let (to, extent) = match s.one_of(&[&SECTION.length, &SECTION.to]) {
-            Some(given) if given.is(&SECTION.to) => (s.value(&SECTION.to), &SECTION.to),
-            _ => (from + s.value(&SECTION.length), &SECTION.length),
-        };
-        let extent = (s.name(extent), s.span_of(extent));
-        if to <= from && s.has_no_errors() {
-            let message = format!("{} lies before the section's start, {from} m", s.name(&SECTION.to));
-            s.error(Kind::Geometry, &SECTION.to, message);
-        }
-        let outer = s.value(&SECTION.outer_diameter);
-        let inner = s.value(&SECTION.inner_diameter);
-        let outer = [outer, s.or(&SECTION.outer_diameter_end, outer)];
-        let inner = [inner, s.or(&SECTION.inner_diameter_end, inner)];
-        if (0..2).any(|k| inner[k] >= outer[k]) && s.has_no_errors() {
-            let message = format!("{} is not less than the outer diameter", s.name(&SECTION.inner_diameter));
-            s.error(Kind::Geometry, &SECTION.inner_diameter, message);
-        }
-        let properties = properties(&s, Some(common), materials);
         s.finish();
-        sections.push(Section { z: [from, to], extent, outer, inner, properties });
-        end = to;
+        end = section.z[1];
+        sections.push(section);
     }
     sections
+}
+
+/// `[[shaft.layer]]`, each within the sections.
+fn layers(r: &Reader, sections: &[Section], common: &Properties, materials: &[Material]) -> Vec<Section> {
+    let ends = sections.first().zip(sections.last()).map(|(first, last)| [first.z[0], last.z[1]]);
+    let read = |s: Reader| {
+        let layer = section(&s, s.value(&LAYER.from), common, materials);
+        if let Some([start, end]) = ends
+            && s.has_no_errors()
+        {
+            let slack = RELATIVE_POSITION_TOLERANCE * (end - start);
+            if layer.z[0] < start - slack || layer.z[1] > end + slack {
+                let problem =
+                    Problem::new(Kind::Geometry, &layer.extent.1, format!("{} is not on the shaft", s.path));
+                s.log.error(problem.expected(format!("from {start} m to {end} m")));
+            }
+        }
+        s.finish();
+        layer
+    };
+    r.tables(&SHAFT.layer).into_iter().map(read).collect()
+}
+
+/// A section or layer that begins at `from`.
+fn section(s: &Reader, from: f64, common: &Properties, materials: &[Material]) -> Section {
+    let (to, extent) = match s.one_of(&[&SECTION.length, &SECTION.to]) {
+        Some(given) if given.is(&SECTION.to) => (s.value(&SECTION.to), &SECTION.to),
+        _ => (from + s.value(&SECTION.length), &SECTION.length),
+    };
+    let extent = (s.name(extent), s.span_of(extent));
+    if to <= from && s.has_no_errors() {
+        let message = format!("{} lies before the section's start, {from} m", s.name(&SECTION.to));
+        s.error(Kind::Geometry, &SECTION.to, message);
+    }
+    let outer = s.value(&SECTION.outer_diameter);
+    let inner = s.value(&SECTION.inner_diameter);
+    let outer = [outer, s.or(&SECTION.outer_diameter_end, outer)];
+    let inner = [inner, s.or(&SECTION.inner_diameter_end, inner)];
+    if (0..2).any(|k| inner[k] >= outer[k]) && s.has_no_errors() {
+        let message = format!("{} is not less than the outer diameter", s.name(&SECTION.inner_diameter));
+        s.error(Kind::Geometry, &SECTION.inner_diameter, message);
+    }
+    let properties = properties(s, Some(common), materials);
+    Section { z: [from, to], extent, outer, inner, properties, gap: false }
 }
 
 /// Stations in file order, within the shaft ends if known; their nodes are assigned later.
@@ -276,7 +335,12 @@ pub(super) fn stations(top: &Reader, ends: Option<[f64; 2]>, spacing: f64) -> Ve
 }
 
 /// Mesh with nodes at every section end and station, subdivided so that no element exceeds `element_length`.
-fn mesh(top: &Reader, sections: &[Section], mut stations: Vec<Station>, spacing: f64) -> MeshedShaft {
+fn mesh(
+    top: &Reader,
+    [sections, layers]: [&[Section]; 2],
+    mut stations: Vec<Station>,
+    spacing: f64,
+) -> MeshedShaft {
     let mut line = MeshedShaft::default();
     let total = sections[sections.len() - 1].z[1] - sections[0].z[0];
     let elements_of = |s: &Section| ((s.z[1] - s.z[0]) / s.properties.element_length).ceil();
@@ -301,12 +365,14 @@ fn mesh(top: &Reader, sections: &[Section], mut stations: Vec<Station>, spacing:
         let mut breaks: Vec<f64> = stations
             .iter()
             .map(|s| s.z)
+            .chain(layers.iter().flat_map(|layer| layer.z))
             .filter(|&z| {
                 z > start + RELATIVE_POSITION_TOLERANCE * total
                     && z < end - RELATIVE_POSITION_TOLERANCE * total
             })
             .collect();
         breaks.sort_by(f64::total_cmp);
+        breaks.dedup_by(|b, a| *b - *a <= RELATIVE_POSITION_TOLERANCE * total);
         breaks.push(end);
         let mut from = start;
         for to in breaks {
@@ -323,7 +389,12 @@ fn mesh(top: &Reader, sections: &[Section], mut stations: Vec<Station>, spacing:
                 let left = line.node_z[line.node_z.len() - 1];
                 let right = if k == count { to } else { from + (to - from) * (k as f64 / count as f64) };
                 line.node_z.push(right);
-                line.elements.extend(element(section, left, right));
+                let middle = 0.5 * (left + right);
+                let here = layers.iter().filter(|layer| layer.z[0] < middle && middle < layer.z[1]);
+                line.elements.extend(element(section, left, right).map(|own| ShaftElement {
+                    layers: here.filter_map(|layer| element(layer, left, right)).collect(),
+                    ..own
+                }));
             }
             from = to;
         }
@@ -340,16 +411,19 @@ fn mesh(top: &Reader, sections: &[Section], mut stations: Vec<Station>, spacing:
 fn element(section: &Section, left: f64, right: f64) -> Option<ShaftElement> {
     let p = &section.properties;
     let ends = |diameters| [section.diameter_at(diameters, left), section.diameter_at(diameters, right)];
+    let nothing = |material: Material| Material { young: 0.0, shear: 0.0, density: 0.0, ..material };
+    let material = p.material.clone()?;
     Some(ShaftElement {
         length: right - left,
         outer_diameter: ends(section.outer),
         inner_diameter: ends(section.inner),
-        material: p.material.clone()?,
-        shear: p.shear,
+        material: if section.gap { nothing(material) } else { material },
+        shear: if section.gap { ShearCoefficient::Rigid } else { p.shear },
         rotary_inertia: p.rotary_inertia,
-        axial_force: p.axial_force,
-        torque: p.torque,
+        axial_force: if section.gap { 0.0 } else { p.axial_force },
+        torque: if section.gap { 0.0 } else { p.torque },
         proportional_damping: p.proportional,
         internal_viscous: p.internal_viscous,
+        layers: Vec::new(),
     })
 }

@@ -131,12 +131,29 @@ impl Components {
 
     /// One matrix.
     pub fn matrix(&self, r: &Reader) -> Matrix6 {
-        let [matrix] = self.table(r, 1).try_into().unwrap_or([[[0.0; 6]; 6]]);
+        self.matrix_of(r, self.passive)
+    }
+
+    /// One matrix, symmetric if it is that of something passive.
+    pub fn matrix_of(&self, r: &Reader, passive: bool) -> Matrix6 {
+        let matrices = self.components(r, 1);
+        if passive && r.has_no_errors() {
+            self.check_symmetry(r, &matrices);
+        }
+        let [matrix] = matrices.try_into().unwrap_or([[[0.0; 6]; 6]]);
         matrix
     }
 
     /// One matrix for each of `rows` speeds; a component has one value for all speeds or one per speed.
     pub fn table(&self, r: &Reader, rows: usize) -> Vec<Matrix6> {
+        let matrices = self.components(r, rows);
+        if self.passive && r.has_no_errors() {
+            self.check_symmetry(r, &matrices);
+        }
+        matrices
+    }
+
+    fn components(&self, r: &Reader, rows: usize) -> Vec<Matrix6> {
         let mut matrices = vec![[[0.0; 6]; 6]; rows];
         if let Some(values) = r.list(self.whole) {
             if values.len() == 36 {
@@ -181,9 +198,6 @@ impl Components {
                 put(key, &[(i, j)]);
             }
         }
-        if self.passive && r.has_no_errors() {
-            self.check_symmetry(r, &matrices);
-        }
         matrices
     }
 
@@ -199,7 +213,7 @@ impl Components {
                     other.name()
                 );
                 let problem = Problem::new(Kind::Conflict, &r.span_of(given), message);
-                r.log.error(problem.hint("give both with the same value, or use a linear bearing"));
+                r.log.error(problem.hint("give both with the same value; a linear bearing, or a bushing with unsymmetric = true, takes such a matrix"));
             }
         }
     }

@@ -90,7 +90,7 @@ fn check_tilt_support(top: &Reader, model: &Model) {
     let tilts = |force: &[f64; 6]| force[3] != 0.0 || force[4] != 0.0;
     for (load, r) in model.loads.iter().filter_map(|l| Some((l, top.item(&loading::TOP.load, &l.name)?))) {
         let on_shaft = load.at.node.is_some_and(|node| node < shaft);
-        if on_shaft && load.history.is_empty() && tilts(&load.force) {
+        if on_shaft && load.factor.is_constant() && tilts(&load.force) {
             let message = format!(
                 "load.{} tilts the shaft, whose only support, {name}, permits tilting like a ball joint",
                 load.name

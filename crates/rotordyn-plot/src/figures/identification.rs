@@ -33,7 +33,7 @@ pub fn draw(
         &found.diagram,
         selected.clone(),
         found.frequencies.clone(),
-        mode_indicator(found),
+        ("mode indicator", mode_indicator(found)),
         title,
     )];
     if found.modes.len() > 1 && found.larger_side_shape(&found.modes[0]).0.len() > 1 {
@@ -70,7 +70,7 @@ pub fn draw_operational(
         &found.diagram,
         selected.clone(),
         found.spectrum.frequencies.clone(),
-        curves,
+        ("singular values of the spectral matrix", curves),
         title,
     )];
     if found.modes.len() > 1 && found.dofs.len() > 1 {
@@ -95,7 +95,7 @@ fn stabilisation(
     diagram: &[DiagramPole],
     selected: Vec<f64>,
     hz: Vec<f64>,
-    curves: Vec<Vec<f64>>,
+    (curves_name, curves): (&str, Vec<Vec<f64>>),
     title: &str,
 ) -> Named {
     let state = |stability: Stability| match stability {
@@ -112,6 +112,7 @@ fn stabilisation(
             "stable: within 1 % in frequency, 5 % in damping, MAC 0.95 of the previous order; {title}"
         ),
         poles: diagram.iter().map(|p| (pole_hz(p.value), p.order, state(p.stability))).collect(),
+        curves_name: curves_name.into(),
         hz,
         curves,
         selected,

@@ -23,6 +23,7 @@
 //! | `signal_<what>_<channel>` | signal analysis of a record: spectra, envelope with bearing lines, kurtogram, orders, jerk ... |
 //! | `stabilisation`, `auto_mac`, `frf_fit_...`, `mode_shapes` | experimental modal analysis of FRFs |
 //! | `validation_mac`, `validation_frequencies`, `validation_frf_...`, `validation_frac`, `validation_fdac` | correlation of model and measurement; `update_...` before and after |
+//! | `update_profile_<parameter>` | profile likelihood of a parameter of an update |
 //! | `run_up_spectrogram_<channel>`, `run_up_waterfall_<channel>`, `run_up_order_cuts_<channel>` | measured and computed run-up |
 //! | `<section>_<quantity>` | quantities that the results' documents mark as drawn, over their axis |
 //! | `comparison_frf_...`, `comparison_unbalance_...`, `comparison_campbell` | cases of a model on common axes, with measured FRFs |
@@ -53,6 +54,7 @@ mod signal_orders;
 mod signal_units;
 mod steady;
 mod trend;
+mod update_profile;
 mod validation;
 
 pub use comparison::LinearComparison;
@@ -75,6 +77,9 @@ use rotordyn_core::results::{
     BearingResult, CampbellResult, ChannelPair, RunUpComparison, SignalResult, TrendResult,
 };
 use rotordyn_core::study::{Machine, Results};
+use rotordyn_update::Update;
+use rotordyn_update::parameter::FreeParameter;
+use rotordyn_update::profile::Profile;
 use rotordyn_update::target::Target;
 
 /// Draws all figures of the available results as `<name>.svg` and `<name>.png`; returns the SVG files.
@@ -309,6 +314,20 @@ pub fn draw_validation<'a>(
     folder: impl Into<FigureFolder<'a>>,
 ) -> Result<Vec<PathBuf>, FigureError> {
     write_plain(validation::figures(prefix, title, target, stages), folder)
+}
+
+/// Draws the profiles of the parameters of an update; returns the SVG files.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn draw_update_profiles<'a>(
+    title: &str,
+    found: &Update,
+    parameters: &[FreeParameter],
+    profiles: &[Profile],
+    folder: impl Into<FigureFolder<'a>>,
+) -> Result<Vec<PathBuf>, FigureError> {
+    write_plain(update_profile::figures(title, found, parameters, profiles), folder)
 }
 
 /// Draws a measured and a computed run-up; file names start with `prefix`. Returns the SVG files.

@@ -1,10 +1,9 @@
 //! Simulated FRF measurement: exact FRFs with noise on force and response, averaged (H₁ estimate).
 
-use std::f64::consts::TAU;
-
 use super::FrfMatrix;
 use crate::Complex;
 use crate::error::{SignalError, check};
+use crate::gaussian::GaussianStream;
 
 /// Settings of a simulated test with a flat force spectrum, such as an impact test.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,37 +55,5 @@ impl FrfMatrix {
         }
         out.coherence = Some(coherence);
         Ok(out)
-    }
-}
-
-/// Complex Gaussian random numbers of mean square 1 (splitmix64, Box-Muller).
-struct GaussianStream(u64);
-
-impl GaussianStream {
-    fn new(seed: u64, reference: u64, response: u64) -> Self {
-        // Independent streams: each number of the key is mixed into the state in turn.
-        let mut stream = GaussianStream(seed);
-        for key in [reference, response] {
-            stream.0 = stream.bits() ^ key.wrapping_mul(0xd134_2543_de82_ef95);
-        }
-        stream
-    }
-
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// In (0, 1].
-    fn uniform(&mut self) -> f64 {
-        ((self.bits() >> 11) + 1) as f64 / (1u64 << 53) as f64
-    }
-
-    fn next(&mut self) -> Complex<f64> {
-        let size = (-self.uniform().ln()).sqrt();
-        Complex::from_polar(size, TAU * self.uniform())
     }
 }

@@ -1,0 +1,279 @@
+//! What `update` says of its fit: probability of chi^2, culprits of a misfit, groups of parameters, profiles.
+
+use rotordyn::update::culprits::{self, Culprit, CulpritSearch};
+use rotordyn::update::goodness::{FitQuality, MIN_PROBABILITY};
+use rotordyn::update::groups::{self, Combination};
+use rotordyn::update::parameter::FreeParameter;
+use rotordyn::update::profile::{Profile, profile};
+use rotordyn::update::{Findings, IdentifiabilityClass, Update, UpdateJob};
+use rotordyn::warning::{Code, Warning};
+
+use super::failure::Failure;
+use super::free_parameters;
+use super::machine::ModelSource;
+use super::terminal::{Terminal, number};
+
+/// Change in standard deviations of the prior above which data and prior are reported as inconsistent.
+const PRIOR_SHIFT_LIMIT: f64 = 3.0;
+/// Culprits that are printed.
+const SHOWN: usize = 3;
+
+/// Checks that the parameters of `--profile` are free.
+pub fn check_profiles(names: &[String], parameters: &[FreeParameter]) -> Result<(), Failure> {
+    let free = |name: &String| parameters.iter().any(|p| p.name == *name);
+    let unknown: Vec<String> = names
+        .iter()
+        .filter(|name| !free(name))
+        .map(|name| format!("{name} is not in --free; --profile takes the names given to --free"))
+        .collect();
+    if unknown.is_empty() { Ok(()) } else { Err(Failure::Input(unknown.join("\n"))) }
+}
+
+/// Groups, the profiles of the parameters `names`, and culprits if the model does not explain the data.
+pub fn findings(
+    terminal: &Terminal,
+    job: &UpdateJob,
+    found: &Update,
+    origin: &ModelSource,
+    names: &[String],
+) -> Result<Findings, Failure> {
+    let mut out =
+        Findings { groups: groups::groups(&found.identifiability, job.parameters), ..Findings::default() };
+    if found.goodness.is_rejected() {
+        let candidates = free_parameters::candidates(job.parameters, origin)?;
+        let bar = terminal.spinner("searching the parameters that explain the misfit");
+        let searched = culprits::search(job, found, &candidates);
+        bar.finish_and_clear();
+        out.culprits = Some(searched?);
+    }
+    let bar = terminal.spinner("profiles");
+    let chosen = (0..job.parameters.len()).filter(|&j| names.contains(&job.parameters[j].name));
+    let profiles: Result<Vec<Profile>, _> = chosen.map(|j| profile(job, found, j)).collect();
+    bar.finish_and_clear();
+    out.profiles = profiles?;
+    Ok(out)
+}
+
+/// chi^2 with its probability.
+pub fn print_fit(terminal: &Terminal, found: &Update) {
+    let goodness = &found.goodness;
+    terminal.print(&format!(
+        "\nchi^2 = {} with {} degrees of freedom (probability of a larger one {} %), {} iterations{}",
+        number(goodness.chi_squared, 3),
+        number(goodness.degrees_of_freedom, 3),
+        per_cent(goodness.probability()),
+        found.iterations.len() - 1,
+        if found.converged { "" } else { ", not converged" }
+    ));
+    match goodness.quality() {
+        FitQuality::DeviationsTooLarge => terminal.print_wrapped(
+            "The differences left are smaller than the standard deviations of the data (1 % or less of all fits are that \
+             close): the stated accuracies are cautious, and so are the standard errors. State better ones with \
+             --frequency-accuracy and --frf-accuracy if they are known.",
+        ),
+        FitQuality::NotTested => terminal.print_wrapped(
+            "There are no more data than parameters: that the model fits says nothing. Fit more modes or points, or free \
+             fewer parameters.",
+        ),
+        FitQuality::Explained | FitQuality::NotExplained => {}
+    }
+}
+
+fn per_cent(probability: f64) -> String {
+    match probability {
+        p if p > 0.999 => "above 99.9".into(),
+        p if p < 1e-6 => "below 1e-4".into(),
+        p => number(100.0 * p, 2),
+    }
+}
+
+/// Groups, culprits and profiles.
+pub fn print(terminal: &Terminal, parameters: &[FreeParameter], found: &Update, findings: &Findings) {
+    group_table(terminal, parameters, findings);
+    if let Some(search) = &findings.culprits {
+        culprit_table(terminal, found, search);
+    }
+    profile_table(terminal, parameters, &findings.profiles);
+}
+
+fn group_table(terminal: &Terminal, parameters: &[FreeParameter], findings: &Findings) {
+    let mut rows = Vec::new();
+    for group in &findings.groups {
+        let row = |what: &str, found: &Combination| {
+            let terms: Vec<String> = group
+                .members
+                .iter()
+                .zip(&found.weights)
+                .map(|(&j, w)| format!("{w:+.2} {}", parameters[j].name))
+                .collect();
+            vec![what.into(), terms.join(" "), number(100.0 * found.error, 2)]
+        };
+        rows.push(row("determined", &group.determined));
+        rows.push(row("not determined", &group.undetermined));
+    }
+    if !rows.is_empty() {
+        let header = ["combination", "relative changes", "standard error %"];
+        terminal.table("Parameters that the data cannot separate", &header, &rows);
+    }
+}
+
+fn culprit_table(terminal: &Terminal, found: &Update, search: &CulpritSearch) {
+    let alone = search.explaining().next().is_some();
+    let shown: Vec<&Culprit> = match alone {
+        true => search.explaining().take(SHOWN).collect(),
+        false => search.culprits.iter().take(SHOWN).collect(),
+    };
+    let title = match alone {
+        true => "Parameters that are not free and would explain the misfit, each alone",
+        false => "Parameters that are not free and would reduce the misfit most, each alone",
+    };
+    let header = ["parameter", "now", "would be", "change %", "gain in chi^2", "chi^2 left", "probability %"];
+    let row = |c: &&Culprit| {
+        let [from, to] = [c.parameter.mean, c.x].map(|x| c.parameter.value(x));
+        let text = |value: f64| format!("{} {}", number(value, 5), c.parameter.unit()).trim_end().to_string();
+        vec![
+            c.parameter.name.clone(),
+            text(from),
+            text(to),
+            format!("{:+.1}", 100.0 * (to / from - 1.0)),
+            number(c.gain, 3),
+            number(c.goodness.chi_squared, 3),
+            per_cent(c.goodness.probability()),
+        ]
+    };
+    if !shown.is_empty() {
+        terminal.table(title, &header, &shown.iter().map(row).collect::<Vec<_>>());
+    }
+    for culprit in shown.iter().filter(|c| !c.alike.is_empty()) {
+        terminal.print_wrapped(&format!(
+            "The data cannot tell {} from {}.",
+            culprit.parameter.name,
+            listed(&culprit.alike)
+        ));
+    }
+    if search.together.len() > 1 {
+        let explained = search.together.last().is_some_and(|last| !last.goodness.is_rejected());
+        let title = if explained {
+            "Parameters that would explain the misfit together, each besides those above it"
+        } else {
+            "Parameters that would reduce the misfit most together, each besides those above it"
+        };
+        let rows: Vec<&Culprit> = search.together.iter().collect();
+        terminal.table(title, &header, &rows.iter().map(row).collect::<Vec<_>>());
+    }
+    terminal.print_wrapped(&format!(
+        "{} parameters that are not free were tried, {} of them change the data; chi^2 is {} without them.",
+        search.candidates,
+        search.with_influence,
+        number(found.goodness.chi_squared, 3)
+    ));
+}
+
+fn profile_table(terminal: &Terminal, parameters: &[FreeParameter], profiles: &[Profile]) {
+    if profiles.is_empty() {
+        return;
+    }
+    let row = |profile: &Profile| {
+        let parameter = &parameters[profile.parameter];
+        let end = |x: Option<f64>| x.map_or("open".into(), |x| number(parameter.value(x), 5));
+        let range = |[low, high]: [Option<f64>; 2]| {
+            format!("{} .. {} {}", end(low), end(high), parameter.unit()).trim_end().to_string()
+        };
+        let best = format!("{} {}", number(parameter.value(profile.best), 5), parameter.unit());
+        vec![
+            parameter.name.clone(),
+            best.trim_end().to_string(),
+            range(profile.interval_68),
+            range(profile.interval_95),
+        ]
+    };
+    let header = ["parameter", "least chi^2 at", "68 % interval", "95 % interval"];
+    let rows: Vec<Vec<String>> = profiles.iter().map(row).collect();
+    terminal.table("Profile likelihood (all other parameters fitted again)", &header, &rows);
+}
+
+/// Warnings of the fit: a model that does not explain the data, correlated parameters, active bounds, no convergence.
+pub fn warn(terminal: &Terminal, parameters: &[FreeParameter], found: &Update, findings: &Findings) {
+    if found.goodness.is_rejected() {
+        terminal.warn(&lack_of_fit(found, findings.culprits.as_ref()));
+    }
+    for group in &findings.groups {
+        let names: Vec<String> = group.members.iter().map(|&j| parameters[j].name.clone()).collect();
+        terminal.warn_of(
+            Code::ModelUpdate,
+            format!(
+                "the data do not separate {}: one combination of them is known to {} %, another only to {} %; free one of \
+                 them alone, or link them with +",
+                listed(&names),
+                number(100.0 * group.determined.error, 2),
+                number(100.0 * group.undetermined.error, 2)
+            ),
+        );
+    }
+    for (parameter, outcome) in parameters.iter().zip(&found.outcomes) {
+        if outcome.class == IdentifiabilityClass::AtBound {
+            terminal.warn_of(
+                Code::ModelUpdate,
+                format!("{} is at its bound: it may compensate another model error", parameter.name),
+            );
+        }
+        let prior_shift = ((outcome.fitted - parameter.mean) / parameter.deviation).abs();
+        if prior_shift > PRIOR_SHIFT_LIMIT {
+            terminal.warn_of(Code::ModelUpdate, format!(
+                    "{}: the fitted value is {} prior standard deviations away from the prior mean; data and prior are \
+                     inconsistent",
+                    parameter.name,
+                    number(prior_shift, 2)
+                ),
+            );
+        }
+    }
+    if !found.converged {
+        terminal.warn_of(
+            Code::ModelUpdate,
+            "the update did not converge: increase --iterations, or reduce the number of free parameters",
+        );
+    }
+}
+
+/// The warning of a model that does not explain the data.
+fn lack_of_fit(found: &Update, search: Option<&CulpritSearch>) -> Warning {
+    let goodness = &found.goodness;
+    let text = format!(
+        "the updated model does not explain the data: chi^2 = {} with {} degrees of freedom has a probability of {} % \
+         (at least {} % expected); no parameter is identified, and the standard errors do not cover the error of the model",
+        number(goodness.chi_squared, 3),
+        number(goodness.degrees_of_freedom, 3),
+        per_cent(goodness.probability()),
+        number(100.0 * MIN_PROBABILITY, 1)
+    );
+    let explaining: Vec<String> = search
+        .iter()
+        .flat_map(|search| search.explaining().take(SHOWN))
+        .map(|c| {
+            format!(
+                "{} ({:+.1} %)",
+                c.parameter.name,
+                100.0 * (c.parameter.value(c.x) / c.parameter.value(0.0) - 1.0)
+            )
+        })
+        .collect();
+    let advice = if explaining.is_empty() {
+        "no single parameter of the model explains it: check the mode pairs, the points, directions, signs and units of the \
+         mapping, and what the model leaves out"
+            .into()
+    } else {
+        let or = explaining.join(" or ");
+        format!("free {or} besides, which would explain it, or check the mode pairs and the mapping")
+    };
+    Warning::new(Code::LackOfFit, "", text).advise(advice)
+}
+
+/// "a, b and c".
+fn listed(names: &[String]) -> String {
+    match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => String::new(),
+    }
+}
