@@ -25,8 +25,10 @@ use super::refine::{FitPoint, GaussNewtonStep, Problem};
 use super::uncertainty::PoleCovariance;
 use rotordyn_linalg::Complex64;
 
-/// F statistic from which a change of the pole along the resonance is no chance.
+/// F statistic from which a change of the pole along the resonance is no chance; and its mean over all modes, from which
+/// the structure is nonlinear, so that all count.
 const MIN_SIGNIFICANCE: f64 = 5.0;
+const MIN_MEAN_SIGNIFICANCE: f64 = 3.0;
 /// Share of the squared distance to the pole at rest in the variance.
 const AT_REST: f64 = 0.5;
 /// Least number of groups, in their effective number, for a variance between them.
@@ -35,6 +37,8 @@ const MIN_GROUPS: f64 = 2.5;
 const MAX_SHARE: f64 = 0.85;
 /// Student's t from which a trend of the outputs' poles with their motion is no chance.
 const MIN_TREND: f64 = 3.5;
+/// Share of the scatter of the outputs' poles that a pattern may leave unexplained.
+const UNEXPLAINED: f64 = 0.3;
 /// Quantile of the Gaussian for a two-sided 95 %.
 const GAUSSIAN: f64 = 1.959_964;
 
@@ -52,11 +56,16 @@ pub(super) fn with_model_error(
     // The mass of a sensor lowers all modes: their trends count together.
     let known: Vec<f64> = trends.iter().flatten().map(|trend| trend.t).collect();
     let together = known.iter().sum::<f64>() / (known.len().max(1) as f64).sqrt();
+    // So does a nonlinearity.
+    let rests: Vec<Option<LinearPole>> = modes.iter().map(|mode| mode.linear_pole(problem)).collect();
+    let known: Vec<f64> = rests.iter().flatten().map(|rest| rest.significance).collect();
+    let nonlinear = known.iter().sum::<f64>() > MIN_MEAN_SIGNIFICANCE * known.len() as f64;
     modes
         .iter()
         .zip(noise)
         .zip(&trends)
-        .map(|((mode, noise), trend)| {
+        .zip(&rests)
+        .map(|(((mode, noise), trend), rest)| {
             let mut sum = *noise;
             if mode.count == 0 {
                 return sum;
@@ -68,13 +77,49 @@ pub(super) fn with_model_error(
             {
                 sum[1] += AT_REST * trend.at_rest * trend.at_rest;
             }
-            if let Some(rest) = mode.linear_pole(problem) {
-                sum[0] += AT_REST * rest.re * rest.re;
-                sum[1] += AT_REST * rest.im * rest.im;
+            if let Some(rest) = rest
+                && (rest.significance > MIN_SIGNIFICANCE || nonlinear)
+            {
+                sum[0] += AT_REST * rest.distance.re.powi(2);
+                sum[1] += AT_REST * rest.distance.im.powi(2);
             }
             sum
         })
         .collect()
+}
+
+/// Modes with outputs of different poles for a reason that is no second mode: their frequencies are off as those of the other
+/// modes (stiffness that varies from row to row), or by the square of their motion (the mass of a sensor that is moved).
+pub(super) fn outputs_differ(problem: &Problem, at: &FitPoint) -> Vec<bool> {
+    let (data, step) = (problem.data(), &problem.step(at));
+    let slope = tr_mul(&step.projected_jacobian, &at.residual);
+    let modes: Vec<ModeGroups> = (0..at.poles.len()).map(|m| ModeGroups::new(data, at, step, m)).collect();
+    let weights: Vec<Vec<f64>> = modes.iter().map(ModeGroups::weights).collect();
+    // Relative changes of frequency by each output, of that output alone times its weight.
+    let shifts: Vec<Vec<f64>> = modes
+        .iter()
+        .zip(&at.poles)
+        .map(|(mode, pole)| mode.shifts(&slope).into_iter().map(|shift| shift / pole.value.im).collect())
+        .collect();
+    let others = |of: &[Vec<f64>], m: usize, o: usize| -> f64 {
+        of.iter().enumerate().filter(|(k, _)| *k != m).map(|(_, own)| own[o]).sum()
+    };
+    let differs = |m: usize| {
+        let (mut all, mut rest) = (0.0, 0.0);
+        for o in 0..data.outputs() {
+            let weight = weights[m][o];
+            if weight > 0.0 {
+                let own = shifts[m][o] / weight;
+                let expected = others(&shifts, m, o) / others(&weights, m, o).max(f64::MIN_POSITIVE);
+                all += weight * own * own;
+                rest += weight * (own - expected).powi(2);
+            }
+        }
+        let trend = modes[m].trend(data, &slope);
+        rest < UNEXPLAINED * all
+            || trend.is_some_and(|trend| trend.t < 0.0 && trend.explained > 1.0 - UNEXPLAINED)
+    };
+    (0..modes.len()).map(differs).collect()
 }
 
 /// Groups of data of one mode.
@@ -100,8 +145,18 @@ struct GroupSum {
 struct Trend {
     /// Slope over its standard error.
     t: f64,
+    /// Share of the scatter of the outputs' poles that it explains.
+    explained: f64,
     /// Imaginary part of the pole of an output at rest, from that of the mode \[rad/s\].
     at_rest: f64,
+}
+
+/// The pole of the linear structure, that of no motion.
+struct LinearPole {
+    /// From the pole of the mode \[1/s\].
+    distance: Complex64,
+    /// F statistic of the change of the pole along the resonance.
+    significance: f64,
 }
 
 impl<'a> ModeGroups<'a> {
@@ -179,8 +234,11 @@ impl<'a> ModeGroups<'a> {
         total.groups()
     }
 
-    /// Distance δ to the pole of no motion; `None` if the pole does not change along the resonance.
-    fn linear_pole(&self, problem: &Problem) -> Option<Complex64> {
+    /// The pole of no motion; `None` if the FRFs do not determine it.
+    fn linear_pole(&self, problem: &Problem) -> Option<LinearPole> {
+        if self.count == 0 {
+            return None;
+        }
         let data = problem.data();
         let (lines, pole) = (data.lines(), &self.at.poles[self.m]);
         // Derivatives by the pole, times the square of the motion over its largest.
@@ -235,11 +293,10 @@ impl<'a> ModeGroups<'a> {
             }
         }
         let significance = 0.5 * (gradient.transpose() * scatter.lu().solve(&gradient)?)[0];
-        if significance.is_nan() || significance < MIN_SIGNIFICANCE {
-            return None;
-        }
         let pole = -(self.inverse.rows(0, 2) * cross.transpose() * change);
-        Some(Complex64::new(pole[0], pole[1]))
+        significance
+            .is_finite()
+            .then(|| LinearPole { distance: Complex64::new(pole[0], pole[1]), significance })
     }
 
     /// Trend of the outputs' poles with the square of their motion; `None` with too few outputs.
@@ -247,8 +304,7 @@ impl<'a> ModeGroups<'a> {
         if self.count == 0 {
             return None;
         }
-        let energy = self.shape.iter().map(|p| p.norm_sqr()).sum::<f64>();
-        let weights: Vec<f64> = self.shape.iter().map(|p| p.norm_sqr() / energy).collect();
+        let weights = self.weights();
         let number = 1.0 / weights.iter().map(|w| w * w).sum::<f64>();
         if number.is_nan() || number < 4.0 {
             return None;
@@ -258,8 +314,7 @@ impl<'a> ModeGroups<'a> {
         let mean: f64 = weights.iter().zip(&motion).map(|(w, x)| w * x).sum();
         let variance: f64 = weights.iter().zip(&motion).map(|(w, x)| w * (x - mean).powi(2)).sum();
         // Poles of the outputs, each by itself: those of large motion alone determine the trend.
-        let shift: Vec<f64> =
-            (0..self.shape.len()).map(|o| (self.inverse.rows(1, 1) * self.gradient(slope, o))[0]).collect();
+        let shift = self.shifts(slope);
         let product: f64 = shift.iter().zip(&motion).map(|(own, x)| own * (x - mean)).sum();
         let trend = product / variance;
         let rest: f64 = weights
@@ -270,7 +325,26 @@ impl<'a> ModeGroups<'a> {
             .map(|((w, own), x)| w * (own / w - trend * (x - mean)).powi(2))
             .sum();
         let error = (rest / (number - 2.0) / variance).sqrt();
-        (error > 0.0 && error.is_finite()).then(|| Trend { t: trend / error, at_rest: -trend * mean })
+        let explained = 1.0 - rest / (rest + trend * trend * variance);
+        (error > 0.0 && error.is_finite()).then(|| Trend {
+            t: trend / error,
+            explained,
+            at_rest: -trend * mean,
+        })
+    }
+
+    /// Shares of the outputs in the energy of the mode.
+    fn weights(&self) -> Vec<f64> {
+        let energy = self.shape.iter().map(|p| p.norm_sqr()).sum::<f64>();
+        self.shape.iter().map(|p| p.norm_sqr() / energy).collect()
+    }
+
+    /// Change of Im λ by each output \[rad/s\]; over its weight, that of the output alone.
+    fn shifts(&self, slope: &DMatrix<f64>) -> Vec<f64> {
+        if self.count == 0 {
+            return vec![0.0; self.shape.len()];
+        }
+        (0..self.shape.len()).map(|o| (self.inverse.rows(1, 1) * self.gradient(slope, o))[0]).collect()
     }
 }
 

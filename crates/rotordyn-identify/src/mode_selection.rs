@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use super::data::{Data, noise_rms, rms};
 use super::lsfd::Fit;
 use super::mac::mac;
-use super::misfit::with_model_error;
+use super::misfit::{outputs_differ, with_model_error};
 use super::pairs::{self, Split};
 use super::plscf::{Pole, StablePole, normalise_largest};
 use super::refine::{FitPoint, Problem, significance};
@@ -57,27 +57,22 @@ pub(super) fn select_modes(
     poles.iter_mut().for_each(|pole| pole.held = false);
     let problem = Problem::new(data);
     let pruned = prune_poles(&problem, poles, settings, dropped)?;
-    let mut settled = settle(&problem, pruned, settings, dropped)?;
+    let settled = settle(&problem, pruned, settings, dropped)?;
     let splits = pairs::splits(&problem, &settled.at, settings);
-    let mut maybe_two: Vec<Complex64> = Vec::new();
-    match exact_pairs(&problem, &settled.at, &splits, settings) {
-        Some(exact) => settled = exact,
-        None => settled = with_pairs(&problem, settled, splits, settings, dropped, &mut maybe_two)?,
-    }
+    let (settled, mut maybe_two) = with_pairs(&problem, settled, splits, settings, dropped)?;
     // A duplicate was taken for the same mode by its shape alone.
-    maybe_two.extend(settled.duplicates);
+    maybe_two.extend(&settled.duplicates);
     let at = settled.at;
+    let differ = outputs_differ(&problem, &at);
     let mut doubts = vec![Vec::new(); at.poles.len()];
     for value in maybe_two {
         let distance = |m: &usize| (at.poles[*m].value - value).norm();
         let nearest = (0..at.poles.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        if let Some(m) = nearest
-            && !doubts[m].contains(&Doubt::MaybeTwo)
-        {
+        if let Some(m) = nearest.filter(|m| !differ[*m] && !doubts[*m].contains(&Doubt::MaybeTwo)) {
             doubts[m].push(Doubt::MaybeTwo);
         }
     }
-    let mut covariance = with_model_error(&problem, &at, &settled.covariance);
+    let mut covariance = settled.covariance;
     for (m, neighbour) in pairs::indistinct(&problem, &at) {
         doubts[m].push(Doubt::MaybeOne);
         // One mode would lie between the two.
@@ -85,69 +80,43 @@ pub(super) fn select_modes(
         covariance[m][0] += apart.re * apart.re;
         covariance[m][1] += apart.im * apart.im;
     }
-    for (pole, doubts) in at.poles.iter().zip(&mut doubts).filter(|(pole, _)| pole.held) {
-        debug_assert!(pole.stable.is_some());
-        doubts.push(Doubt::Held);
-    }
+    at.poles.iter().zip(&mut doubts).filter(|(pole, _)| pole.held).for_each(|(_, own)| own.push(Doubt::Held));
     let fit = problem.fit(&at);
     Some(SelectedModes { poles: at.poles, fit, covariance, significance: settled.significance, doubts })
 }
 
-/// Rounds in which pairs of FRFs without noise are sought: a pair shows once those with larger residuals are resolved.
-const EXACT_ROUNDS: usize = 4;
-
-/// The fit with all pairs, certain or not, if the FRFs have no noise and it leaves nothing to explain.
-fn exact_pairs(problem: &Problem, at: &FitPoint, splits: &[Split], settings: &Settings) -> Option<Settled> {
-    if !pairs::without_noise(problem.data()) {
-        return None;
-    }
-    let mut poles = pairs::all_poles(&at.poles, splits)?;
-    for _ in 0..EXACT_ROUNDS {
-        let settled = settle(problem, poles, settings, &mut Vec::new())?;
-        if pairs::is_exact(problem, &settled.at) {
-            return Some(settled);
-        }
-        let splits = pairs::splits(problem, &settled.at, settings);
-        poles = pairs::all_poles(&settled.at.poles, &splits)?;
-    }
-    None
-}
-
-/// The fit with the pairs that are certain; adds the poles of modes that may be two.
+/// The fit with the pairs that are certain, and the poles of modes that may be two.
 fn with_pairs(
     problem: &Problem,
     before: Settled,
     splits: Vec<Split>,
     settings: &Settings,
     dropped: &mut Vec<DroppedPole>,
-    maybe_two: &mut Vec<Complex64>,
-) -> Option<Settled> {
-    let single: Vec<Complex64> = before.at.poles.iter().map(|pole| pole.value).collect();
-    let mut poles = Vec::new();
+) -> Option<(Settled, Vec<Complex64>)> {
+    let (mut poles, mut maybe_two, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
     for (pole, split) in before.at.poles.iter().zip(splits) {
         match split {
-            Split::One => poles.push(pole.clone()),
+            Split::One(pole) => poles.push(pole),
             Split::Maybe(_) => {
                 maybe_two.push(pole.value);
                 poles.push(pole.clone());
             }
-            Split::Two(pair) => poles.extend(pair),
+            Split::Two(pair) => {
+                pairs.push((pole.value, pole.value.re.abs() + (pair[0].value - pair[1].value).norm()));
+                poles.extend(pair);
+            }
         }
     }
-    let expected = poles.len();
-    if expected == single.len() {
-        return Some(before);
+    if pairs.is_empty() {
+        return Some((before, maybe_two));
     }
-    let known = dropped.len();
     let settled = settle(problem, poles, settings, dropped)?;
-    if settled.at.poles.len() < expected {
-        // Of a pair a pole was dropped again, with its reason: the mode that remains may be two.
-        let lost = |value: &&Complex64| {
-            dropped[known..].iter().any(|pole| (pole.value - **value).norm() < 2.0 * value.re.abs())
-        };
-        maybe_two.extend(single.iter().filter(lost));
-    }
-    Some(settled)
+    // Of a pair a pole may be dropped again: the mode that remains may be two.
+    let left = |value: Complex64, reach: f64| {
+        settled.at.poles.iter().filter(|pole| (pole.value - value).norm() < reach).count()
+    };
+    maybe_two.extend(pairs.iter().filter(|(value, reach)| left(*value, *reach) < 2).map(|(value, _)| *value));
+    Some((settled, maybe_two))
 }
 
 /// Poles at the minimum without faults.
@@ -176,10 +145,17 @@ fn settle(
             duplicates.extend(fault.duplicate);
             at = problem.refine(fault.left, FINAL_STEPS);
         }
-        let covariance = covariance(problem.data(), &at, &problem.step(&at));
+        let noise = covariance(problem.data(), &at, &problem.step(&at));
+        let covariance = with_model_error(problem, &at, &noise);
         let significance = significance(&at);
-        // The jackknife covariance exposes poles that fit the noise of a few lines.
-        let fault = |m: usize| significance_fault(&at.poles[m], covariance[m], significance[m]);
+        // The jackknife covariance exposes poles that fit the noise of a few lines; the error of the model, poles that fit the
+        // misfit of a stronger mode.
+        let fault = |m: usize| {
+            let of =
+                |covariance: PoleCovariance| significance_fault(&at.poles[m], covariance, significance[m]);
+            let near = stronger_neighbours(&at, m, &significance).next();
+            of(noise[m]).or_else(|| near.and_then(|_| of(covariance[m])))
+        };
         let worst = (0..at.poles.len())
             .filter(|&m| fault(m).is_some())
             .min_by(|&a, &b| significance[a].total_cmp(&significance[b]));
@@ -341,16 +317,26 @@ fn duplicate_fault(data: &Data, at: &FitPoint, m: usize, significance: &[f64]) -
         let scaled = fitted(m).into_iter().zip(&data.output_scale);
         scaled.map(|(v, scale)| v * *scale).collect::<Vec<_>>()
     };
-    let own = &at.poles[m];
-    let other = (0..at.poles.len()).filter(|&k| k != m && significance[k] > significance[m]).find(|&k| {
-        let other = &at.poles[k];
-        let near = (own.value - other.value).norm()
-            < MAX_DUPLICATE_DISTANCE * own.value.re.abs().max(other.value.re.abs());
+    let other = stronger_neighbours(at, m, significance).find(|&k| {
         let shape_mac = || mac(&fitted(m), &fitted(k)).max(mac(&measured(m), &measured(k)));
-        near && at.x.ncols() >= MIN_DUPLICATE_OUTPUTS && shape_mac() > MIN_DUPLICATE_MAC
+        at.x.ncols() >= MIN_DUPLICATE_OUTPUTS && shape_mac() > MIN_DUPLICATE_MAC
     })?;
     let reason = format!("duplicate of the mode at {:.3} Hz", at.poles[other].value.im / TAU);
-    Some(DroppedPole { value: own.value, reason })
+    Some(DroppedPole { value: at.poles[m].value, reason })
+}
+
+/// More significant modes so close to a mode that it may be a duplicate of them.
+fn stronger_neighbours<'a>(
+    at: &'a FitPoint,
+    m: usize,
+    significance: &'a [f64],
+) -> impl Iterator<Item = usize> + 'a {
+    let own = at.poles[m].value;
+    (0..at.poles.len()).filter(move |&k| {
+        let other = at.poles[k].value;
+        let near = (own - other).norm() < MAX_DUPLICATE_DISTANCE * own.re.abs().max(other.re.abs());
+        k != m && significance[k] > significance[m] && near
+    })
 }
 
 /// Reweights every FRF by its noise and by the misfit of a fit; returns its poles in the new scales.

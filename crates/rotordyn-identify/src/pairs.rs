@@ -2,10 +2,11 @@
 //!
 //! Two modes closer than their bandwidth, H = a/(s − λ − δ) + b/(s − λ + δ), are to first order a mode and a
 //! double pole: (a + b)/(s − λ) + δ(a − b)/(s − λ)². Around every mode the FRFs, less the other modes, are fitted with
-//! one and with two poles; the reduction of the residuals is judged by its F statistic.
-//! FRFs of a structure that changes between hits (pole λ + δ_o of output o) have the
-//! same double pole: unless the fit is exact or the squared residuals fall to a hundredth with unlike shapes,
-//! the mode stays one and is marked.
+//! one and with two poles. A second pole is taken if the reduction of the residuals is significant, if it explains nearly all
+//! that noise does not, and if its shape is another: noise of the force and nonlinearities give it the same.
+//!
+//! FRFs of a structure that changes between hits (pole λ + δ_o of output o) have the same double pole: unless the fit is
+//! exact or the squared residuals fall to a hundredth with unlike shapes, the mode stays one and is marked.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +14,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::Settings;
-use super::data::{Data, noise_rms, rms};
+use super::data::Data;
 use super::lsfd::{Fit, free_residues};
 use super::mac::mac;
 use super::plscf::{Pole, normalise_largest};
@@ -23,32 +24,52 @@ use rotordyn_linalg::Complex64;
 
 /// What a mode is.
 pub(super) enum Split {
-    One,
+    One(Pole),
     /// These two close modes, or one that differs between the FRFs.
     Maybe([Pole; 2]),
     Two([Pole; 2]),
 }
 
+impl Split {
+    pub fn poles(&self) -> &[Pole] {
+        match self {
+            Split::One(pole) => std::slice::from_ref(pole),
+            Split::Maybe(pair) | Split::Two(pair) => pair,
+        }
+    }
+
+    fn poles_mut(&mut self) -> &mut [Pole] {
+        match self {
+            Split::One(pole) => std::slice::from_mut(pole),
+            Split::Maybe(pair) | Split::Two(pair) => pair,
+        }
+    }
+}
+
 /// Half width of the window around a mode in half-power bandwidths, and in lines at least.
-const WINDOW: f64 = 4.0;
+const WINDOW: f64 = 2.0;
 const MIN_LINES: f64 = 20.0;
-/// Steps of the fits with one pole and with two.
+/// Rounds in which pairs are sought.
+const ROUNDS: usize = 4;
+/// Steps of the fits around a mode with one pole and with two, and of the fit of all modes with the pairs of a round.
 const ONE_STEPS: usize = 4;
 const TWO_STEPS: usize = 12;
+const TOGETHER_STEPS: usize = 40;
 /// Principal directions of the outputs that are fitted around a mode: more than the modes there.
 const DIRECTIONS: usize = 6;
 /// Distances of the two poles at the start, over their decay rate.
 const START_DISTANCES: [f64; 2] = [0.2, 0.7];
 /// Minimum F statistic of a second pole.
 const MIN_SIGNIFICANCE: f64 = 10.0;
-/// Minimum share of the second pole in the energy of the FRFs in the window: 1 % of the amplitude.
-const MIN_SHARE: f64 = 1e-4;
+/// Minimum share of the second pole in the energy of the FRFs in the window: 0.1 % of the amplitude.
+const MIN_SHARE: f64 = 1e-6;
+/// What the second pole explains over what neither it nor noise explains: less is as likely a structure that changes between
+/// hits, of which a second pole takes up a part.
+const MIN_EXPLAINED: f64 = 20.0;
 /// Residuals over the FRFs, squared, at which of one mode there is nothing left to explain; and at which a fit counts as
 /// exact, so that its modes are the only ones that explain the FRFs.
 const ROUND_OFF: f64 = 1e-20;
 const EXACT: f64 = 1e-15;
-/// Mean square of noise over that of the FRFs below which FRFs count as computed, not measured.
-const NO_NOISE: f64 = 1e-8;
 /// MAC of shapes and of participations below which two close modes differ.
 const DIFFERENT_SHAPES: f64 = 0.9;
 const DIFFERENT_PARTICIPATIONS: f64 = 0.95;
@@ -61,87 +82,159 @@ const CLOSE: f64 = 1.5;
 const FARTHEST: f64 = 4.0;
 
 /// Every mode with what it is.
+///
+/// A pair that leaves much unexplained hides smaller ones nearby: pairs are sought in rounds, each with those of the rounds
+/// before in the model.
 pub(super) fn splits(problem: &Problem, at: &FitPoint, settings: &Settings) -> Vec<Split> {
-    let fit = problem.fit(at);
-    (0..at.poles.len()).into_par_iter().map(|m| split(problem, at, &fit, m, settings)).collect()
+    let mut splits: Vec<Split> = at.poles.iter().cloned().map(Split::One).collect();
+    let mut refined: Option<FitPoint> = None;
+    for _ in 0..ROUNDS {
+        let model = refined.as_ref().unwrap_or(at);
+        let fit = problem.fit(model);
+        let mut place = 0;
+        let mut singles = Vec::new();
+        for (m, split) in splits.iter().enumerate() {
+            if matches!(split, Split::One(_)) {
+                singles.push((m, place));
+            }
+            place += split.poles().len();
+        }
+        let found: Vec<(usize, Split)> = singles
+            .into_par_iter()
+            .filter_map(|(m, place)| Some((m, pair_of(problem, &model.poles, &fit, place, settings)?)))
+            .collect();
+        if found.is_empty() {
+            break;
+        }
+        found.into_iter().for_each(|(m, split)| splits[m] = split);
+        let all = splits.iter().flat_map(|split| split.poles().to_vec()).collect();
+        let together = problem.refine(all, TOGETHER_STEPS);
+        let exact = is_exact(problem, &together);
+        let mut poles = together.poles.iter();
+        for split in &mut splits {
+            split.poles_mut().iter_mut().zip(&mut poles).for_each(|(own, refined)| own.clone_from(refined));
+            if exact && let Split::Maybe(pair) = split {
+                *split = Split::Two(pair.clone());
+            }
+        }
+        if exact {
+            break;
+        }
+        refined = Some(together);
+    }
+    splits
 }
 
-fn split(problem: &Problem, at: &FitPoint, fit: &Fit, m: usize, settings: &Settings) -> Split {
-    let data = problem.data();
-    let pole = &at.poles[m];
-    if pole.held {
-        return Split::One;
+/// Two modes instead of one; `None` if it is one.
+fn pair_of(problem: &Problem, poles: &[Pole], fit: &Fit, m: usize, settings: &Settings) -> Option<Split> {
+    if poles[m].held {
+        return None;
     }
-    let hz = pole.value.im / TAU;
-    let half = (WINDOW * 2.0 * pole.value.re.abs() / TAU).max(MIN_LINES * data.step);
-    let line =
-        |hz: f64| ((hz - data.frequencies[0]) / data.step).round().clamp(0.0, (data.lines() - 1) as f64);
-    let (first, last) = (line(hz - half) as usize, line(hz + half) as usize);
-    let inside = |pole: &Pole| {
-        let own = pole.value.im / TAU;
-        own >= data.frequencies[first] && own <= data.frequencies[last]
-    };
-    let (near, far): (Vec<usize>, Vec<usize>) = (0..at.poles.len()).partition(|&k| inside(&at.poles[k]));
-    let s: Vec<Complex64> = data.s();
-    let others = |o: usize, i: usize, k: usize| -> Complex64 {
-        let of = |&r: &usize| {
-            let (value, residue) = (at.poles[r].value, fit.shapes[r][o] * at.poles[r].participation[i]);
-            residue / (s[k] - value) + residue.conj() / (s[k] - value.conj())
-        };
-        far.iter().map(of).sum::<Complex64>() * s[k].powi(data.power)
-    };
-    let local = projected(data.window(first..=last, others));
-    let here = Problem::new(&local);
-    let start: Vec<Pole> = near.iter().map(|&k| at.poles[k].clone()).collect();
-    let Some(own) = near.iter().position(|&k| k == m) else { return Split::One };
-    let (outputs, inputs) = (local.outputs(), local.inputs());
-    let unknowns = (start.len() + 1) * (2 * outputs + 2 * inputs) + 2 * inputs * outputs;
-    let all = 2 * local.lines() * outputs * inputs;
-    if all < 2 * unknowns {
-        return Split::One;
-    }
-    let one = here.refine(start, ONE_STEPS);
+    let window = Window::new(problem.data(), poles, fit, m)?;
+    let here = Problem::new(&window.data);
     let energy = here.energy();
+    let one = here.refine(window.near.clone(), ONE_STEPS);
     if one.cost < ROUND_OFF * energy {
-        return Split::One;
+        return None;
     }
-    let values: Vec<Complex64> = one.poles.iter().map(|p| p.value).collect();
-    let residues = free_residues(&local, &values);
-    let mut best: Option<FitPoint> = None;
-    for pair in start_pairs(&one.poles[own], directions(&residues[own])) {
-        let mut poles = one.poles.clone();
-        poles.remove(own);
-        poles.extend(pair);
-        let two = here.refine(poles, TWO_STEPS);
-        if best.as_ref().is_none_or(|best| two.cost < best.cost) {
-            best = Some(two);
-        }
-    }
-    let Some(two) = best else { return Split::One };
-    let count = two.poles.len();
-    let pair = [two.poles[count - 2].clone(), two.poles[count - 1].clone()];
-    let freedom = (2 * outputs + 2 * inputs) as f64;
-    let variance = (two.cost / (all - unknowns) as f64).max(f64::MIN_POSITIVE);
-    let significance = (one.cost - two.cost) / freedom / variance;
-    let decay = pair[0].value.re.abs().max(pair[1].value.re.abs());
-    let valid = pair.iter().all(|p| {
-        let zeta = -p.value.re / p.value.norm();
-        inside(p) && zeta > 0.0 && zeta <= settings.largest_damping
-    });
-    let together =
-        (pair[0].value - pair[1].value).norm() < FARTHEST * decay && decay < FARTHEST * pole.value.re.abs();
-    if !valid || !together || significance < MIN_SIGNIFICANCE {
-        return Split::One;
+    let two = window.two(&here, &one)?;
+    let (a, b) = (two.poles.len() - 2, two.poles.len() - 1);
+    let pair = [two.poles[a].clone(), two.poles[b].clone()];
+    let gain = one.cost - two.cost;
+    let significance = gain / window.unknowns_of_a_mode() / two.residual_variance().max(f64::MIN_POSITIVE);
+    if !window.valid(&pair, &poles[m], settings) || significance < MIN_SIGNIFICANCE {
+        return None;
     }
     if two.cost < EXACT * energy {
-        return Split::Two(pair);
+        return Some(Split::Two(pair));
     }
-    if one.cost - two.cost < MIN_SHARE * energy {
-        return Split::One;
+    let unexplained = (two.cost - noise(&two, window.data.lines())).max(0.0);
+    let alike = shape_mac(&here, &two, a, b);
+    if alike > DIFFERENT_SHAPES || gain < MIN_EXPLAINED * unexplained || gain < MIN_SHARE * energy {
+        return None;
     }
-    let shapes = shape_mac(&here, &two, count - 2, count - 1);
-    let large = one.cost > LARGE_REDUCTION * two.cost && shapes < UNLIKE_SHAPES;
-    if large { Split::Two(pair) } else { Split::Maybe(pair) }
+    let certain = one.cost > LARGE_REDUCTION * two.cost && alike < UNLIKE_SHAPES;
+    Some(if certain { Split::Two(pair) } else { Split::Maybe(pair) })
+}
+
+/// Energy of the noise in the residuals, by third differences from line to line, as in `data::noise_rms`; their mean, not the
+/// median, contains the noise of the force, which is strongest at the resonance.
+fn noise(at: &FitPoint, lines: usize) -> f64 {
+    let third = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).powi(2) / 20.0;
+    let of = |part: &[f64]| part.windows(4).map(third).sum::<f64>() * lines as f64 / (lines - 3) as f64;
+    at.residual.as_slice().chunks(lines).map(of).sum()
+}
+
+/// The FRFs around a mode, less the modes outside.
+struct Window {
+    data: Data,
+    /// Modes inside, with the place of the mode itself.
+    near: Vec<Pole>,
+    own: usize,
+}
+
+impl Window {
+    /// `None` if there are too few lines for another mode.
+    fn new(data: &Data, poles: &[Pole], fit: &Fit, m: usize) -> Option<Self> {
+        let hz = poles[m].value.im / TAU;
+        let half = (WINDOW * 2.0 * poles[m].value.re.abs() / TAU).max(MIN_LINES * data.step);
+        let line =
+            |hz: f64| ((hz - data.frequencies[0]) / data.step).round().clamp(0.0, (data.lines() - 1) as f64);
+        let (first, last) = (line(hz - half) as usize, line(hz + half) as usize);
+        let band = [data.frequencies[first], data.frequencies[last]];
+        let (near, far): (Vec<usize>, Vec<usize>) =
+            (0..poles.len()).partition(|&k| is_inside(&poles[k], band));
+        let s = data.s();
+        let others = |o: usize, i: usize, k: usize| -> Complex64 {
+            let of = |&r: &usize| {
+                let (value, residue) = (poles[r].value, fit.shapes[r][o] * poles[r].participation[i]);
+                residue / (s[k] - value) + residue.conj() / (s[k] - value.conj())
+            };
+            far.iter().map(of).sum::<Complex64>() * s[k].powi(data.power)
+        };
+        let own = near.iter().position(|&k| k == m)?;
+        let near = near.iter().map(|&k| poles[k].clone()).collect();
+        let window = Self { data: projected(data.window(first..=last, others)), near, own };
+        let frfs = window.data.outputs() * window.data.inputs();
+        let unknowns = (window.near.len() + 1) as f64 * window.unknowns_of_a_mode() + 2.0 * frfs as f64;
+        ((window.data.lines() * frfs) as f64 >= unknowns).then_some(window)
+    }
+
+    fn unknowns_of_a_mode(&self) -> f64 {
+        (2 * self.data.outputs() + 2 * self.data.inputs()) as f64
+    }
+
+    /// The best fit with two poles, which come last, instead of the mode's one.
+    fn two(&self, here: &Problem, one: &FitPoint) -> Option<FitPoint> {
+        let values: Vec<Complex64> = one.poles.iter().map(|p| p.value).collect();
+        let residues = free_residues(&self.data, &values);
+        let fits =
+            start_pairs(&one.poles[self.own], directions(&residues[self.own])).into_iter().map(|pair| {
+                let mut poles = one.poles.clone();
+                poles.remove(self.own);
+                poles.extend(pair);
+                here.refine(poles, TWO_STEPS)
+            });
+        fits.min_by(|a, b| a.cost.total_cmp(&b.cost))
+    }
+
+    /// Whether two poles are two close modes at the place of one.
+    fn valid(&self, pair: &[Pole; 2], one: &Pole, settings: &Settings) -> bool {
+        let band = [self.data.frequencies[0], self.data.frequencies[self.data.lines() - 1]];
+        let decay = pair[0].value.re.abs().max(pair[1].value.re.abs());
+        let damped = |p: &Pole| {
+            let zeta = -p.value.re / p.value.norm();
+            zeta > 0.0 && zeta <= settings.largest_damping
+        };
+        pair.iter().all(|p| is_inside(p, band) && damped(p))
+            && (pair[0].value - pair[1].value).norm() < FARTHEST * decay
+            && decay < FARTHEST * one.value.re.abs()
+    }
+}
+
+fn is_inside(pole: &Pole, band: [f64; 2]) -> bool {
+    let hz = pole.value.im / TAU;
+    hz >= band[0] && hz <= band[1]
 }
 
 /// FRFs on the principal directions of the outputs; lengths and angles of shapes are preserved.
@@ -210,23 +303,6 @@ fn different(shapes: f64, a: &Pole, b: &Pole) -> bool {
     shapes < DIFFERENT_SHAPES
         && a.participation.len() > 1
         && mac(&a.participation, &b.participation) < DIFFERENT_PARTICIPATIONS
-}
-
-/// Poles with all pairs, certain or not; `None` if there is no pair.
-pub(super) fn all_poles(poles: &[Pole], splits: &[Split]) -> Option<Vec<Pole>> {
-    let of = |(pole, split): (&Pole, &Split)| match split {
-        Split::One => vec![pole.clone()],
-        Split::Maybe(pair) | Split::Two(pair) => pair.to_vec(),
-    };
-    let all: Vec<Pole> = poles.iter().zip(splits).flat_map(of).collect();
-    (all.len() > poles.len()).then_some(all)
-}
-
-/// Whether the FRFs have no noise, so that their modes can be found exactly.
-pub(super) fn without_noise(data: &Data) -> bool {
-    let share = |frf: &Vec<Complex64>| noise_rms(frf).powi(2) / rms(frf).powi(2).max(f64::MIN_POSITIVE);
-    let sum: f64 = data.values.iter().flatten().map(share).sum();
-    sum < NO_NOISE * (data.outputs() * data.inputs()) as f64
 }
 
 /// Whether a fit leaves nothing to explain.
