@@ -25,7 +25,7 @@ pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix
                 found.responses[strongest(&m.shape)].to_string(),
                 found.references[strongest(&m.participation)].to_string(),
                 whirl_text(m.whirl),
-                m.doubts.iter().map(|doubt| doubt.label()).collect::<Vec<_>>().join("; "),
+                m.quality_warnings.iter().map(|doubt| doubt.label()).collect::<Vec<_>>().join("; "),
             ]
         })
         .collect();

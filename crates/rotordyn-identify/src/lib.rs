@@ -44,7 +44,7 @@ mod whirl;
 
 pub use data::quantity_of;
 pub use error::IdentifyError;
-pub use result::{DiagramPole, Doubt, DroppedPole, ModalIdentification, Mode, Stability};
+pub use result::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning, Stability};
 pub use settings::Settings;
 
 use data::Data;

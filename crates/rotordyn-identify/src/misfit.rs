@@ -3,7 +3,7 @@
 //! Three patterns of the residuals show it:
 //!
 //! * outputs that have different poles: stiffness that varies from row to row, or a temperature that drifts. The variance
-//!   is Σ δ δᵀ of the changes δ of the pole when an output is left out, if it exceeds that of noise by more than chance; with
+//!   is the mean of δ δᵀ of the changes δ of the pole when an output is left out, if it exceeds that of noise by more than chance; with
 //!   few outputs the factor of Student's t for 95 % over that of a Gaussian makes ±1.96 standard errors a 95 % interval;
 //! * poles of the outputs that follow the square of their motion: the mass of a sensor that is moved. The pole without it
 //!   is that of an output at rest;
@@ -35,8 +35,10 @@ const AT_REST: f64 = 0.5;
 const MIN_GROUPS: f64 = 2.5;
 /// Largest share of a group in the information on a pole: more would extrapolate from what is left.
 const MAX_SHARE: f64 = 0.85;
-/// Student's t from which a trend of the outputs' poles with their motion is no chance.
+/// Student's t from which a trend of the outputs' poles with their motion is no chance; and the least number of outputs, in
+/// their effective number: of fewer, t is large by chance.
 const MIN_TREND: f64 = 3.5;
+const MIN_TREND_GROUPS: f64 = 6.0;
 /// Share of the scatter of the outputs' poles that a pattern may leave unexplained.
 const UNEXPLAINED: f64 = 0.3;
 /// Quantile of the Gaussian for a two-sided 95 %.
@@ -135,9 +137,9 @@ struct ModeGroups<'a> {
     shape: Vec<Complex64>,
 }
 
-/// Sum of δ δᵀ over groups, and their effective number.
+/// Variance between groups, and their effective number.
 struct GroupSum {
-    sum: PoleCovariance,
+    variance: PoleCovariance,
     number: f64,
 }
 
@@ -218,8 +220,10 @@ impl<'a> ModeGroups<'a> {
         let change = self.inverse.rows(0, 2) * gradient;
         let (re, im) = (change[0], change[1]);
         total.sum.iter_mut().zip([re * re, im * im, re * im]).for_each(|(sum, own)| *sum += own);
+        let own = own.min(MAX_SHARE);
         total.shares += own;
         total.squares += own * own;
+        total.expected += own / (1.0 - own);
     }
 
     /// Every output is a group.
@@ -306,7 +310,7 @@ impl<'a> ModeGroups<'a> {
         }
         let weights = self.weights();
         let number = 1.0 / weights.iter().map(|w| w * w).sum::<f64>();
-        if number.is_nan() || number < 4.0 {
+        if number.is_nan() || number < MIN_TREND_GROUPS {
             return None;
         }
         let motion: Vec<f64> =
@@ -353,12 +357,15 @@ struct Total {
     sum: PoleCovariance,
     shares: f64,
     squares: f64,
+    /// Of δ δᵀ over the variance of the pole, for groups that differ by chance: n/(n − 1) for n equal ones.
+    expected: f64,
 }
 
 impl Total {
     fn groups(self) -> GroupSum {
         let number = if self.squares > 0.0 { self.shares * self.shares / self.squares } else { 0.0 };
-        GroupSum { sum: self.sum, number }
+        let expected = self.expected.max(f64::MIN_POSITIVE);
+        GroupSum { variance: self.sum.map(|sum| sum / expected), number }
     }
 }
 
@@ -370,11 +377,13 @@ impl GroupSum {
         }
         let freedom = (self.number - 1.0).max(1.5);
         let wider = (student(freedom) / GAUSSIAN).powi(2);
-        let chance = 1.0 + (2.0 / freedom).sqrt();
-        let of =
-            |k: usize| if self.sum[k] > chance * noise[k] { wider * self.sum[k] - noise[k] } else { 0.0 };
+        // 95 % quantile of chi² over its degrees of freedom (Wilson & Hilferty 1931).
+        let width = 2.0 / (9.0 * freedom);
+        let chance = (1.0 - width + 1.645 * width.sqrt()).powi(3);
+        let own = self.variance;
+        let of = |k: usize| if own[k] > chance * noise[k] { wider * own[k] - noise[k] } else { 0.0 };
         let (re, im) = (of(0), of(1));
-        let both = if re > 0.0 && im > 0.0 { wider * self.sum[2] - noise[2] } else { 0.0 };
+        let both = if re > 0.0 && im > 0.0 { wider * own[2] - noise[2] } else { 0.0 };
         [re, im, both]
     }
 }

@@ -14,7 +14,7 @@ use super::pairs::{self, Split};
 use super::plscf::{Pole, StablePole, normalise_largest};
 use super::refine::{FitPoint, Problem, significance};
 use super::uncertainty::{PoleCovariance, covariance, standard_errors, white_noise_covariance};
-use super::{Doubt, DroppedPole, Settings};
+use super::{DroppedPole, QualityWarning, Settings};
 use rotordyn_linalg::Complex64;
 
 /// Selected modes: poles at the minimum with residues, covariance and significance.
@@ -23,7 +23,7 @@ pub(super) struct SelectedModes {
     pub fit: Fit,
     pub covariance: Vec<PoleCovariance>,
     pub significance: Vec<f64>,
-    pub doubts: Vec<Vec<Doubt>>,
+    pub quality_warnings: Vec<Vec<QualityWarning>>,
 }
 
 /// Refinement steps while poles may still be dropped, and at the end.
@@ -64,35 +64,47 @@ pub(super) fn select_modes(
     maybe_two.extend(&settled.duplicates);
     let at = settled.at;
     let differ = outputs_differ(&problem, &at);
-    let mut doubts = vec![Vec::new(); at.poles.len()];
+    let mut quality_warnings = vec![Vec::new(); at.poles.len()];
     for value in maybe_two {
         let distance = |m: &usize| (at.poles[*m].value - value).norm();
         let nearest = (0..at.poles.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        if let Some(m) = nearest.filter(|m| !differ[*m] && !doubts[*m].contains(&Doubt::MaybeTwo)) {
-            doubts[m].push(Doubt::MaybeTwo);
+        if let Some(m) =
+            nearest.filter(|m| !differ[*m] && !quality_warnings[*m].contains(&QualityWarning::MaybeTwo))
+        {
+            quality_warnings[m].push(QualityWarning::MaybeTwo);
         }
     }
     let mut covariance = settled.covariance;
     for (m, neighbour) in pairs::indistinct(&problem, &at) {
-        doubts[m].push(Doubt::MaybeOne);
+        quality_warnings[m].push(QualityWarning::MaybeOne);
         // One mode would lie between the two.
         let apart = 0.5 * (at.poles[neighbour].value - at.poles[m].value);
         covariance[m][0] += apart.re * apart.re;
         covariance[m][1] += apart.im * apart.im;
     }
-    at.poles.iter().zip(&mut doubts).filter(|(pole, _)| pole.held).for_each(|(_, own)| own.push(Doubt::Held));
+    at.poles
+        .iter()
+        .zip(&mut quality_warnings)
+        .filter(|(pole, _)| pole.held)
+        .for_each(|(_, own)| own.push(QualityWarning::Held));
     let fit = problem.fit(&at);
-    Some(SelectedModes { poles: at.poles, fit, covariance, significance: settled.significance, doubts })
+    Some(SelectedModes {
+        poles: at.poles,
+        fit,
+        covariance,
+        significance: settled.significance,
+        quality_warnings,
+    })
 }
 
 /// The fit with the pairs that are certain, and the poles of modes that may be two.
 fn with_pairs(
     problem: &Problem,
-    before: Settled,
+    before: RefinedModes,
     splits: Vec<Split>,
     settings: &Settings,
     dropped: &mut Vec<DroppedPole>,
-) -> Option<(Settled, Vec<Complex64>)> {
+) -> Option<(RefinedModes, Vec<Complex64>)> {
     let (mut poles, mut maybe_two, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
     for (pole, split) in before.at.poles.iter().zip(splits) {
         match split {
@@ -120,7 +132,7 @@ fn with_pairs(
 }
 
 /// Poles at the minimum without faults.
-struct Settled {
+struct RefinedModes {
     at: FitPoint,
     covariance: Vec<PoleCovariance>,
     significance: Vec<f64>,
@@ -134,7 +146,7 @@ fn settle(
     poles: Vec<Pole>,
     settings: &Settings,
     dropped: &mut Vec<DroppedPole>,
-) -> Option<Settled> {
+) -> Option<RefinedModes> {
     let mut at = problem.refine(poles, FINAL_STEPS);
     let mut duplicates = Vec::new();
     loop {
@@ -160,7 +172,7 @@ fn settle(
             .filter(|&m| fault(m).is_some())
             .min_by(|&a, &b| significance[a].total_cmp(&significance[b]));
         let Some(worst) = worst else {
-            return Some(Settled { at, covariance, significance, duplicates });
+            return Some(RefinedModes { at, covariance, significance, duplicates });
         };
         dropped.extend(fault(worst));
         let mut poles = at.poles;

@@ -3,7 +3,7 @@
 use super::data::Data;
 use super::mode_selection::{SelectedModes, select_modes, synthesise};
 use super::plscf::{NormalEquations, Pole, normalise_largest};
-use super::result::{DiagramPole, Doubt, DroppedPole, ModalIdentification, Mode};
+use super::result::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning};
 use super::{IdentifyError, Settings, lsfd, mac, pole_selection, stabilisation, uncertainty, whirl};
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::Quantity;
@@ -37,6 +37,12 @@ pub(super) fn identify_band(
         poles: candidates.len(),
         orders: orders.len(),
     })?;
+    // A pole may be dropped before and after the reweighting.
+    let earlier = std::mem::take(&mut dropped);
+    for pole in earlier {
+        dropped.retain(|known: &DroppedPole| known.value != pole.value);
+        dropped.push(pole);
+    }
     Ok(assemble_result(frfs, settings, &data, found, diagram, orders, dropped))
 }
 
@@ -100,10 +106,10 @@ fn assemble_result(
             let (shape, participation) = if data.swapped { (small, large) } else { (large, small) };
             let whirl = whirl::whirl(&frfs.responses, &shape)
                 .or_else(|| whirl::whirl(&frfs.references, &participation).map(|w| -w));
-            let mut doubts = found.doubts[m].clone();
+            let mut quality_warnings = found.quality_warnings[m].clone();
             let straight = whirl.is_none_or(|w| w.abs() < STRAIGHT);
             if straight && points >= MIN_COLLINEAR_POINTS && collinearity < MIN_COLLINEARITY {
-                doubts.push(Doubt::LowCollinearity);
+                quality_warnings.push(QualityWarning::LowCollinearity);
             }
             Mode {
                 pole: pole.value + settings.added_decay,
@@ -114,7 +120,7 @@ fn assemble_result(
                 collinearity,
                 whirl,
                 significance: found.significance[m],
-                doubts,
+                quality_warnings,
             }
         })
         .collect();

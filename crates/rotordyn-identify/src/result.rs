@@ -28,12 +28,12 @@ pub struct Mode {
     /// F statistic of the mode: variance that it explains over residual variance.
     pub significance: f64,
     /// What makes the mode doubtful; empty for a mode beyond doubt.
-    pub doubts: Vec<Doubt>,
+    pub quality_warnings: Vec<QualityWarning>,
 }
 
 /// What makes a mode doubtful.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Doubt {
+pub enum QualityWarning {
     /// Two close modes fit the FRFs better than this one: two modes, or one that differs between the FRFs.
     MaybeTwo,
     /// With its close neighbour it may be one mode that differs between the FRFs.
@@ -44,14 +44,14 @@ pub enum Doubt {
     LowCollinearity,
 }
 
-impl Doubt {
+impl QualityWarning {
     /// Label.
     pub fn label(self) -> &'static str {
         match self {
-            Doubt::MaybeTwo => "maybe two modes",
-            Doubt::MaybeOne => "maybe one with its neighbour",
-            Doubt::Held => "stable pole, not refined",
-            Doubt::LowCollinearity => "low phase collinearity",
+            QualityWarning::MaybeTwo => "maybe two modes",
+            QualityWarning::MaybeOne => "maybe one with its neighbour",
+            QualityWarning::Held => "stable pole, not refined",
+            QualityWarning::LowCollinearity => "low phase collinearity",
         }
     }
 }

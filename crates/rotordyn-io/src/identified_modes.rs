@@ -1,7 +1,7 @@
 //! Identified modes (experimental modal analysis): what is written to files, and shapes for other programs.
 
 use rotordyn_core::document::{Array, Document, Rows, Section, in_hdf5, in_json, named};
-use rotordyn_identify::{DiagramPole, Doubt, DroppedPole, ModalIdentification, Mode};
+use rotordyn_identify::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning};
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::record::{Analysis, Dof, Geometry, MeasuredData, Shape};
 
@@ -60,7 +60,9 @@ fn mode_rows<'r>(found: &'r ModalIdentification) -> Rows<'r, 'r, Mode> {
         .optional("whirl", "1", |m| m.whirl)
         .number("significance", "1", |m| m.significance)
         .number(named("natural_frequency_hz", "natural_frequency"), "Hz", Mode::natural_frequency_hz)
-        .text("doubts", |m| m.doubts.iter().copied().map(Doubt::label).collect::<Vec<_>>().join("; "))
+        .text("quality_warnings", |m| {
+            m.quality_warnings.iter().copied().map(QualityWarning::label).collect::<Vec<_>>().join("; ")
+        })
 }
 
 /// Poles of all model orders with their stability.

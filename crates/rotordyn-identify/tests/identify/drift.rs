@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use rotordyn_identify::{Doubt, Settings, identify};
+use rotordyn_identify::{QualityWarning, Settings, identify};
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::record::{Dof, FrfMatrix, MeasurementNoise};
 
@@ -58,12 +58,20 @@ fn a_stable_pole_is_kept() {
         let own = found.modes.iter().find(|m| (m.frequency_hz() / WEAK_HZ - 1.0).abs() < 0.01);
         count += 1;
         kept += usize::from(own.is_some());
-        held += usize::from(own.is_some_and(|m| m.doubts.contains(&Doubt::Held)));
-        far += found.modes.iter().filter(|m| m.doubts.is_empty() && m.damping_ratio() > 0.05).count();
+        held += usize::from(own.is_some_and(|m| m.quality_warnings.contains(&QualityWarning::Held)));
+        far +=
+            found.modes.iter().filter(|m| m.quality_warnings.is_empty() && m.damping_ratio() > 0.05).count();
         let list: Vec<String> = found
             .modes
             .iter()
-            .map(|m| format!("{:.1} Hz {:.2} % {:?}", m.frequency_hz(), 100.0 * m.damping_ratio(), m.doubts))
+            .map(|m| {
+                format!(
+                    "{:.1} Hz {:.2} % {:?}",
+                    m.frequency_hz(),
+                    100.0 * m.damping_ratio(),
+                    m.quality_warnings
+                )
+            })
             .collect();
         let dropped: Vec<String> = found.dropped.iter().map(ToString::to_string).collect();
         println!("{seed}: {}; dropped {}", list.join(", "), dropped.join("; "));

@@ -57,9 +57,9 @@ fn run(seed: u64, points: usize, step: f64, db: f64) -> [usize; 4] {
         match found.modes.iter().find(|m| near(m.pole, k.pole)) {
             Some(m) => {
                 out[1] += 1;
-                out[2] += usize::from(m.doubts.is_empty());
-                if !m.doubts.is_empty() {
-                    println!("marked: {:.2} Hz {:?}", m.frequency_hz(), m.doubts);
+                out[2] += usize::from(m.quality_warnings.is_empty());
+                if !m.quality_warnings.is_empty() {
+                    println!("marked: {:.2} Hz {:?}", m.frequency_hz(), m.quality_warnings);
                 }
             }
             None => println!("missing: {:.2} Hz", k.hz()),
@@ -67,8 +67,13 @@ fn run(seed: u64, points: usize, step: f64, db: f64) -> [usize; 4] {
     }
     for m in &found.modes {
         if known.iter().all(|k| !near(m.pole, k.pole)) {
-            out[3] += usize::from(m.doubts.is_empty());
-            println!("wrong: {:.2} Hz, {:.2} %, {:?}", m.frequency_hz(), 100.0 * m.damping_ratio(), m.doubts);
+            out[3] += usize::from(m.quality_warnings.is_empty());
+            println!(
+                "wrong: {:.2} Hz, {:.2} %, {:?}",
+                m.frequency_hz(),
+                100.0 * m.damping_ratio(),
+                m.quality_warnings
+            );
         }
     }
     println!("bands {:.0?}", found.bands);

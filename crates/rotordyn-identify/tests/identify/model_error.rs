@@ -122,20 +122,20 @@ fn coverage(misfit: Misfit, seeds: std::ops::Range<u64>) -> Coverage {
             let m = &found.modes[best];
             sum.modes += 1;
             sum.width += 1e6 * m.frequency_error / m.frequency_hz();
-            sum.marked += usize::from(!m.doubts.is_empty());
+            sum.marked += usize::from(!m.quality_warnings.is_empty());
             sum.frequency += usize::from((m.frequency_hz() - k.hz()).abs() < 1.96 * m.frequency_error);
             sum.damping += usize::from((m.damping_ratio() - k.zeta()).abs() < 1.96 * m.damping_error);
         }
         for (m, used) in found.modes.iter().zip(&used) {
             if !used {
-                let marked = !m.doubts.is_empty();
+                let marked = !m.quality_warnings.is_empty();
                 sum.wrong += usize::from(!marked);
                 sum.wrong_marked += usize::from(marked);
                 println!(
                     "wrong: {misfit:?} {seed} {:.3} Hz {:.3} % {:?} of {:?}",
                     m.frequency_hz(),
                     100.0 * m.damping_ratio(),
-                    m.doubts,
+                    m.quality_warnings,
                     known.iter().map(KnownMode::hz).collect::<Vec<_>>()
                 );
             }

@@ -1,6 +1,6 @@
 //! Pairs of close modes: four pairs 0.5 % apart are found, or their row says that it may be two modes.
 
-use rotordyn_identify::{Doubt, ModalIdentification, Settings, identify};
+use rotordyn_identify::{ModalIdentification, QualityWarning, Settings, identify};
 use rotordyn_signal::record::MeasurementNoise;
 
 use crate::known_modes::{KnownMode, frfs, lines};
@@ -41,7 +41,8 @@ impl Count {
             let has = |k: &KnownMode| found.modes.iter().any(|m| (m.pole - k.pole).norm() < 0.1 * near);
             let marked = found.modes.iter().any(|m| {
                 (m.pole - pair[0].pole).norm() < 3.0 * near
-                    && (m.doubts.contains(&Doubt::MaybeTwo) || m.doubts.contains(&Doubt::MaybeOne))
+                    && (m.quality_warnings.contains(&QualityWarning::MaybeTwo)
+                        || m.quality_warnings.contains(&QualityWarning::MaybeOne))
             });
             self.pairs += 1;
             if has(&pair[0]) && has(&pair[1]) {
@@ -52,7 +53,7 @@ impl Count {
         }
         let wrong = found.modes.iter().filter(|m| {
             let distance = |k: &KnownMode| (m.pole - k.pole).norm() / k.pole.norm();
-            m.doubts.is_empty() && known.iter().all(|k| distance(k) > APART - 1.0)
+            m.quality_warnings.is_empty() && known.iter().all(|k| distance(k) > APART - 1.0)
         });
         self.wrong += wrong.count();
     }
@@ -70,7 +71,7 @@ fn count(zeta: f64, references: usize, db: Option<f64>, seeds: u64) -> Count {
         let found = identify(&made, &Settings::default()).unwrap();
         count.add(&found, &known);
         let list: Vec<String> =
-            found.modes.iter().map(|m| format!("{:.3} {:?}", m.frequency_hz(), m.doubts)).collect();
+            found.modes.iter().map(|m| format!("{:.3} {:?}", m.frequency_hz(), m.quality_warnings)).collect();
         println!("{zeta} {references} {db:?} {seed}: {}", list.join(", "));
     }
     count

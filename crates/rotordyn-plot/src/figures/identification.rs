@@ -1,5 +1,6 @@
 //! Figures of an identification: stabilisation diagram, auto-MAC, synthesised FRFs, mode shapes.
 
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use nalgebra::DMatrix;
@@ -29,9 +30,12 @@ pub fn draw(
     folder: &Path,
 ) -> Result<Vec<PathBuf>, FigureError> {
     let selected: Vec<f64> = found.modes.iter().map(Mode::frequency_hz).collect();
+    let doubtful = found.modes.iter().map(|m| !m.quality_warnings.is_empty());
+    let dropped = found.dropped.iter().map(|pole| (pole.value.im / TAU, pole.reason.clone()));
     let mut figures = vec![stabilisation(
         &found.diagram,
-        selected.clone(),
+        selected.iter().copied().zip(doubtful).collect(),
+        dropped.collect(),
         found.frequencies.clone(),
         ("mode indicator", mode_indicator(found)),
         title,
@@ -68,7 +72,8 @@ pub fn draw_operational(
     let curves = found.spectrum.values.iter().map(|v| v.iter().map(|v| v.sqrt()).collect()).collect();
     let mut figures = vec![stabilisation(
         &found.diagram,
-        selected.clone(),
+        selected.iter().map(|hz| (*hz, false)).collect(),
+        Vec::new(),
         found.spectrum.frequencies.clone(),
         ("singular values of the spectral matrix", curves),
         title,
@@ -93,7 +98,8 @@ pub fn draw_operational(
 
 fn stabilisation(
     diagram: &[DiagramPole],
-    selected: Vec<f64>,
+    selected: Vec<(f64, bool)>,
+    dropped: Vec<(f64, String)>,
     hz: Vec<f64>,
     (curves_name, curves): (&str, Vec<Vec<f64>>),
     title: &str,
@@ -105,7 +111,7 @@ fn stabilisation(
         Stability::Shape => PoleStability::Shape,
         Stability::Stable => PoleStability::Stable,
     };
-    let pole_hz = |pole: Complex64| pole.im / std::f64::consts::TAU;
+    let pole_hz = |pole: Complex64| pole.im / TAU;
     let figure = Stabilisation {
         title: "Stabilisation diagram".into(),
         note: format!(
@@ -116,6 +122,7 @@ fn stabilisation(
         hz,
         curves,
         selected,
+        dropped,
     };
     ("stabilisation".into(), Figure::Stabilisation(figure))
 }
