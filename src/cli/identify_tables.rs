@@ -18,12 +18,14 @@ pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix
                 (k + 1).to_string(),
                 format!("{:.4}", m.frequency_hz()),
                 number(m.frequency_error, 2),
+                format!("{:.4}", m.natural_frequency_hz()),
                 format!("{:.4}", 100.0 * m.damping_ratio()),
                 number(100.0 * m.damping_error, 2),
                 format!("{:.3}", m.collinearity),
                 found.responses[strongest(&m.shape)].to_string(),
                 found.references[strongest(&m.participation)].to_string(),
                 whirl_text(m.whirl),
+                m.quality_warnings.iter().map(|doubt| doubt.label()).collect::<Vec<_>>().join("; "),
             ]
         })
         .collect();
@@ -34,16 +36,34 @@ pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix
         found.frequencies[found.frequencies.len() - 1],
         found.orders.last().unwrap_or(&0)
     );
-    let header = ["", "Hz", "+-", "zeta %", "+-", "MPC", "response", "reference", "whirl"];
+    let header = [
+        "",
+        "damped Hz",
+        "+-",
+        "natural Hz",
+        "zeta %",
+        "+-",
+        "MPC",
+        "response",
+        "reference",
+        "whirl",
+        "doubt",
+    ];
     terminal.table(&title, &header, &rows);
     let worst = found.errors.iter().flatten().copied().fold(0.0, f64::max);
     terminal.print(&format!(
-        "  +- is one standard error; MPC (modal phase collinearity) is 1 for a real mode.\n  Fit error {:.2} % over all \
+        "  +- is one standard error, with the error of the model; damped Hz is Im(pole)/2pi, natural Hz |pole|/2pi.\n  MPC (modal phase collinearity) is 1 for a real mode.\n  Fit error {:.2} % over all \
          FRFs, {:.2} % for the worst FRF.",
         100.0 * found.total_error,
         100.0 * worst
     ));
-    print_rejected(terminal, &found.dropped);
+    if found.bands.len() > 1 {
+        let text: Vec<String> =
+            found.bands.iter().map(|[from, to]| format!("{from:.1} .. {to:.1}")).collect();
+        terminal.print(&format!("  Identified in {} bands by itself: {} Hz.", text.len(), text.join(", ")));
+    }
+    let dropped: Vec<String> = found.dropped.iter().map(ToString::to_string).collect();
+    print_rejected(terminal, &dropped);
     sdof_table(terminal, found, frfs);
 }
 

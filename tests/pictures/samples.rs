@@ -417,7 +417,8 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
             curves_name: name.clone(),
             hz: x.clone(),
             curves: vec![y.clone(), x.clone()],
-            selected: vec![first(1), first(2)],
+            selected: vec![(first(1), false), (first(2), true)],
+            dropped: vec![(first(0), name.clone())],
         }),
         Figure::Matrix(Matrix {
             title: name.clone(),

@@ -171,6 +171,24 @@ impl Data {
         }
     }
 
+    /// The lines of a range, less what a model explains there: `model(output, input, line)`.
+    pub fn window(
+        &self,
+        lines: std::ops::RangeInclusive<usize>,
+        model: impl Fn(usize, usize, usize) -> Complex64,
+    ) -> Self {
+        let rest = |o: usize, i: usize| {
+            lines.clone().map(|k| self.values[o][i][k] - model(o, i, k)).collect::<Vec<_>>()
+        };
+        Self {
+            frequencies: self.frequencies[lines.clone()].to_vec(),
+            values: (0..self.outputs()).map(|o| (0..self.inputs()).map(|i| rest(o, i)).collect()).collect(),
+            output_scale: self.output_scale.clone(),
+            input_scale: self.input_scale.clone(),
+            ..*self
+        }
+    }
+
     pub fn outputs(&self) -> usize {
         self.values.len()
     }
@@ -224,18 +242,18 @@ impl Data {
 const MIN_ORDER: usize = 8;
 
 /// The order with as many unknowns as the data of one FRF.
-fn highest_order(lines: usize) -> usize {
+pub(super) fn highest_order(lines: usize) -> usize {
     lines.saturating_sub(2) / 2
 }
 
 /// Root mean square of |H|.
-fn rms(frf: &[Complex64]) -> f64 {
+pub(super) fn rms(frf: &[Complex64]) -> f64 {
     (frf.iter().map(|h| h.norm_sqr()).sum::<f64>() / frf.len() as f64).sqrt()
 }
 
 /// Noise RMS (scatter from line to line), by the median of third differences: E|n₃ − 3n₂ + 3n₁ − n₀|² = 20
 /// σ², of which the median is ln 2. Robust to resonances, whether wide or sharp.
-fn noise_rms(frf: &[Complex64]) -> f64 {
+pub(super) fn noise_rms(frf: &[Complex64]) -> f64 {
     let third = |w: &[Complex64]| (w[3] - w[2] * 3.0 + w[1] * 3.0 - w[0]).norm_sqr();
     let mut all: Vec<f64> = frf.windows(4).map(third).collect();
     if all.is_empty() {

@@ -86,10 +86,13 @@ impl Basis {
     }
 
     /// Derivatives of the FRFs by λ_r, and by l_ir of every input but the largest: column pairs as in
-    /// [`Self::design`], for the products ψ δλ and ψ δl; and the parameter of each pair.
+    /// [`Self::design`], for the products ψ δλ and ψ δl; and the parameter of each pair. Held poles have none.
     pub fn derivative_columns(&self, poles: &[Pole]) -> (DMatrix<f64>, Vec<FitParameter>) {
         let mut list = Vec::new();
         for (r, pole) in poles.iter().enumerate() {
+            if pole.held {
+                continue;
+            }
             list.push(FitParameter { mode: r, input: None });
             let fixed = normalised_input(pole);
             list.extend(
@@ -98,7 +101,7 @@ impl Basis {
         }
         let mut d = DMatrix::zeros(self.rows(), 2 * list.len());
         for (k, change) in list.iter().enumerate() {
-            let Pole { value, participation } = &poles[change.mode];
+            let Pole { value, participation, .. } = &poles[change.mode];
             let columns = [2 * k, 2 * k + 1];
             match change.input {
                 None => {
@@ -162,8 +165,7 @@ pub(super) fn normalised_input(pole: &Pole) -> usize {
 pub(super) fn free_residues(data: &Data, values: &[Complex64]) -> Vec<DMatrix<Complex64>> {
     let single = Data { values: vec![vec![data.values[0][0].clone()]], ..data.clone() };
     let basis = Basis::new(&single);
-    let poles: Vec<Pole> =
-        values.iter().map(|&value| Pole { value, participation: vec![1.0.into()] }).collect();
+    let poles: Vec<Pole> = values.iter().map(|&value| Pole::new(value, vec![1.0.into()])).collect();
     let (no, ni) = (data.outputs(), data.inputs());
     let each: Vec<Vec<Vec<Complex64>>> = data.values.iter().flatten().map(|frf| vec![frf.clone()]).collect();
     let y = basis.right_side(&each);

@@ -1,15 +1,20 @@
 //! Mode selection: stable poles are refined together; diverging, insignificant or uncertain ones are dropped,
-//! duplicate poles are merged.
+//! duplicate poles are merged, modes that are two are split.
+//!
+//! A pole that many orders share but that drifts away in a refinement is held at its stable value, once the others have
+//! settled for good: unmodelled motion nearby, not the mode, has drawn it away.
 
 use std::f64::consts::TAU;
 
-use super::Settings;
-use super::data::Data;
+use super::data::{Data, noise_rms, rms};
 use super::lsfd::Fit;
 use super::mac::mac;
-use super::plscf::{Pole, normalise_largest};
+use super::misfit::{outputs_differ, with_model_error};
+use super::pairs::{self, Split};
+use super::plscf::{Pole, StablePole, normalise_largest};
 use super::refine::{FitPoint, Problem, significance};
 use super::uncertainty::{PoleCovariance, covariance, standard_errors, white_noise_covariance};
+use super::{DroppedPole, QualityWarning, Settings};
 use rotordyn_linalg::Complex64;
 
 /// Selected modes: poles at the minimum with residues, covariance and significance.
@@ -18,6 +23,7 @@ pub(super) struct SelectedModes {
     pub fit: Fit,
     pub covariance: Vec<PoleCovariance>,
     pub significance: Vec<f64>,
+    pub quality_warnings: Vec<Vec<QualityWarning>>,
 }
 
 /// Refinement steps while poles may still be dropped, and at the end.
@@ -25,6 +31,11 @@ const TRIAL_STEPS: usize = 4;
 const FINAL_STEPS: usize = 40;
 /// Relative change of frequency from which a stable pole counts as drifted away.
 const MAX_FREQUENCY_DRIFT: f64 = 0.01;
+/// Growth of the damping ratio from which it counts as drifted, and the damping ratio below which it does not.
+const MAX_DAMPING_GROWTH: f64 = 3.0;
+const MIN_BROAD_DAMPING: f64 = 0.03;
+/// Support of a pole (mean similarity over the orders) from which it is held where it was stable.
+const MIN_HELD_SUPPORT: f64 = 0.3;
 /// Minimum significance F of a mode; the largest of many noise poles stays below it.
 const MIN_SIGNIFICANCE: f64 = 10.0;
 /// Maximum relative standard errors of a mode: of the frequency and of the damping ratio.
@@ -36,31 +47,132 @@ pub(super) fn select_modes(
     data: &mut Data,
     mut poles: Vec<Pole>,
     settings: &Settings,
-    dropped: &mut Vec<String>,
+    dropped: &mut Vec<DroppedPole>,
 ) -> Option<SelectedModes> {
     poles = prune_poles(&Problem::new(data), poles, settings, dropped)?;
     // First fit with equal weights, then reweighted by its residuals.
     let first = Problem::new(data).refine(poles, TRIAL_STEPS);
-    let poles = reweight(data, first);
+    let mut poles = reweight(data, first);
+    // What the others left unexplained may have drawn a held pole away: it is tried once more.
+    poles.iter_mut().for_each(|pole| pole.held = false);
     let problem = Problem::new(data);
-    let mut at = problem.refine(prune_poles(&problem, poles, settings, dropped)?, FINAL_STEPS);
+    let pruned = prune_poles(&problem, poles, settings, dropped)?;
+    let settled = settle(&problem, pruned, settings, dropped)?;
+    let splits = pairs::splits(&problem, &settled.at, settings);
+    let (settled, mut maybe_two) = with_pairs(&problem, settled, splits, settings, dropped)?;
+    // A duplicate was taken for the same mode by its shape alone.
+    maybe_two.extend(&settled.duplicates);
+    let at = settled.at;
+    let differ = outputs_differ(&problem, &at);
+    let mut quality_warnings = vec![Vec::new(); at.poles.len()];
+    for value in maybe_two {
+        let distance = |m: &usize| (at.poles[*m].value - value).norm();
+        let nearest = (0..at.poles.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        if let Some(m) =
+            nearest.filter(|m| !differ[*m] && !quality_warnings[*m].contains(&QualityWarning::MaybeTwo))
+        {
+            quality_warnings[m].push(QualityWarning::MaybeTwo);
+        }
+    }
+    let mut covariance = settled.covariance;
+    for (m, neighbour) in pairs::indistinct(&problem, &at) {
+        quality_warnings[m].push(QualityWarning::MaybeOne);
+        // One mode would lie between the two.
+        let apart = 0.5 * (at.poles[neighbour].value - at.poles[m].value);
+        covariance[m][0] += apart.re * apart.re;
+        covariance[m][1] += apart.im * apart.im;
+    }
+    at.poles
+        .iter()
+        .zip(&mut quality_warnings)
+        .filter(|(pole, _)| pole.held)
+        .for_each(|(_, own)| own.push(QualityWarning::Held));
+    let fit = problem.fit(&at);
+    Some(SelectedModes {
+        poles: at.poles,
+        fit,
+        covariance,
+        significance: settled.significance,
+        quality_warnings,
+    })
+}
+
+/// The fit with the pairs that are certain, and the poles of modes that may be two.
+fn with_pairs(
+    problem: &Problem,
+    before: RefinedModes,
+    splits: Vec<Split>,
+    settings: &Settings,
+    dropped: &mut Vec<DroppedPole>,
+) -> Option<(RefinedModes, Vec<Complex64>)> {
+    let (mut poles, mut maybe_two, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
+    for (pole, split) in before.at.poles.iter().zip(splits) {
+        match split {
+            Split::One(pole) => poles.push(pole),
+            Split::Maybe(_) => {
+                maybe_two.push(pole.value);
+                poles.push(pole.clone());
+            }
+            Split::Two(pair) => {
+                pairs.push((pole.value, pole.value.re.abs() + (pair[0].value - pair[1].value).norm()));
+                poles.extend(pair);
+            }
+        }
+    }
+    if pairs.is_empty() {
+        return Some((before, maybe_two));
+    }
+    let settled = settle(problem, poles, settings, dropped)?;
+    // Of a pair a pole may be dropped again: the mode that remains may be two.
+    let left = |value: Complex64, reach: f64| {
+        settled.at.poles.iter().filter(|pole| (pole.value - value).norm() < reach).count()
+    };
+    maybe_two.extend(pairs.iter().filter(|(value, reach)| left(*value, *reach) < 2).map(|(value, _)| *value));
+    Some((settled, maybe_two))
+}
+
+/// Poles at the minimum without faults.
+struct RefinedModes {
+    at: FitPoint,
+    covariance: Vec<PoleCovariance>,
+    significance: Vec<f64>,
+    /// Poles that were dropped as duplicates of a mode that remains.
+    duplicates: Vec<Complex64>,
+}
+
+/// Refines poles to the minimum, drops faulty ones. `None` if no pole remains.
+fn settle(
+    problem: &Problem,
+    poles: Vec<Pole>,
+    settings: &Settings,
+    dropped: &mut Vec<DroppedPole>,
+) -> Option<RefinedModes> {
+    let mut at = problem.refine(poles, FINAL_STEPS);
+    let mut duplicates = Vec::new();
     loop {
-        while let Some(poles) = remove_faulty_poles(&problem, &at, None, settings, dropped) {
-            if poles.is_empty() {
+        while let Some(fault) = remove_faulty_poles(problem, &at, None, settings, dropped) {
+            if fault.left.is_empty() {
                 return None;
             }
-            at = problem.refine(poles, FINAL_STEPS);
+            duplicates.extend(fault.duplicate);
+            at = problem.refine(fault.left, FINAL_STEPS);
         }
-        let covariance = covariance(problem.data(), &at, &problem.step(&at));
+        let noise = covariance(problem.data(), &at, &problem.step(&at));
+        let covariance = with_model_error(problem, &at, &noise);
         let significance = significance(&at);
-        // The jackknife covariance exposes poles that fit the noise of a few lines.
-        let fault = |m: usize| significance_fault(&at.poles[m], covariance[m], significance[m]);
+        // The jackknife covariance exposes poles that fit the noise of a few lines; the error of the model, poles that fit the
+        // misfit of a stronger mode.
+        let fault = |m: usize| {
+            let of =
+                |covariance: PoleCovariance| significance_fault(&at.poles[m], covariance, significance[m]);
+            let near = stronger_neighbours(&at, m, &significance).next();
+            of(noise[m]).or_else(|| near.and_then(|_| of(covariance[m])))
+        };
         let worst = (0..at.poles.len())
             .filter(|&m| fault(m).is_some())
             .min_by(|&a, &b| significance[a].total_cmp(&significance[b]));
         let Some(worst) = worst else {
-            let fit = problem.fit(&at);
-            return Some(SelectedModes { poles: at.poles, fit, covariance, significance });
+            return Some(RefinedModes { at, covariance, significance, duplicates });
         };
         dropped.extend(fault(worst));
         let mut poles = at.poles;
@@ -77,98 +189,127 @@ fn prune_poles(
     problem: &Problem,
     mut poles: Vec<Pole>,
     settings: &Settings,
-    dropped: &mut Vec<String>,
+    dropped: &mut Vec<DroppedPole>,
 ) -> Option<Vec<Pole>> {
     loop {
         let at = problem.refine(poles.clone(), TRIAL_STEPS);
         match remove_faulty_poles(problem, &at, Some(&poles), settings, dropped) {
             None => return Some(at.poles),
-            Some(left) if left.is_empty() => return None,
-            Some(left) => poles = left,
+            Some(fault) if fault.left.is_empty() => return None,
+            Some(fault) => poles = fault.left,
         }
     }
 }
 
+/// Poles without a faulty one.
+struct Fault {
+    left: Vec<Pole>,
+    /// The pole that was removed as a duplicate of another.
+    duplicate: Option<Complex64>,
+}
+
 /// Poles left after removing faulty ones; `None` if there is no faulty one. Drifted poles are removed
-/// together, of the others only the least significant: the rest may recover without it.
+/// together, or held if they are stable; of the others only the least significant: the rest may recover without it.
 fn remove_faulty_poles(
     problem: &Problem,
     at: &FitPoint,
     started: Option<&[Pole]>,
     settings: &Settings,
-    dropped: &mut Vec<String>,
-) -> Option<Vec<Pole>> {
+    dropped: &mut Vec<DroppedPole>,
+) -> Option<Fault> {
     let band = [problem.data().frequencies[0], problem.data().frequencies[problem.data().lines() - 1]];
     let count = at.poles.len();
-    let off: Vec<Option<String>> = (0..count)
-        .map(|m| drift_fault(at.poles[m].value, started.map(|s| s[m].value), band, settings))
-        .collect();
+    let off: Vec<Option<DroppedPole>> =
+        (0..count).map(|m| drift_fault(&at.poles[m], started.map(|s| s[m].value), band, settings)).collect();
     if off.iter().any(Option::is_some) {
         // Restart the remaining poles from their previous values: the drifted ones have biased them.
-        let stay = |m: &usize| off[*m].is_none();
         let from = started.unwrap_or(&at.poles);
-        let left = (0..count).filter(stay).map(|m| from[m].clone()).collect();
-        dropped.extend(off.into_iter().flatten());
-        return Some(left);
+        let mut left = Vec::new();
+        for (m, fault) in off.into_iter().enumerate() {
+            let mut pole = from[m].clone();
+            if let Some(fault) = fault {
+                let Some(stable) = pole.stable.filter(|stable| stable.support >= MIN_HELD_SUPPORT) else {
+                    dropped.push(fault);
+                    continue;
+                };
+                (pole.value, pole.held) = (stable.value, true);
+            }
+            left.push(pole);
+        }
+        return Some(Fault { left, duplicate: None });
     }
     let significance = significance(at);
     let covariance = white_noise_covariance(at, &problem.step(at));
     let fault_of = |m: usize| {
-        let weak = significance_fault(&at.poles[m], covariance[m], significance[m]);
-        weak.or_else(|| duplicate_fault(problem.data(), at, m, &significance))
+        let weak =
+            significance_fault(&at.poles[m], covariance[m], significance[m]).map(|fault| (fault, false));
+        weak.or_else(|| Some((duplicate_fault(problem.data(), at, m, &significance)?, true)))
     };
     let worst = (0..count)
         .filter_map(|m| Some((m, fault_of(m)?)))
         .min_by(|a, b| significance[a.0].total_cmp(&significance[b.0]));
-    let (worst, reason) = worst?;
+    let (worst, (reason, duplicate)) = worst?;
     dropped.push(reason);
     let mut left = at.poles.clone();
-    left.remove(worst);
-    Some(left)
+    let removed = left.remove(worst);
+    Some(Fault { left, duplicate: duplicate.then_some(removed.value) })
 }
 
-fn describe_pole(pole: Complex64) -> String {
-    format!("{:.3} Hz, damping {:.3} %", pole.im / TAU, -100.0 * pole.re / pole.norm())
+fn damping_ratio(pole: Complex64) -> f64 {
+    -pole.re / pole.norm()
 }
 
 fn drift_fault(
-    pole: Complex64,
+    pole: &Pole,
     started: Option<Complex64>,
     band: [f64; 2],
     settings: &Settings,
-) -> Option<String> {
-    let hz = pole.im / TAU;
-    let zeta = -pole.re / pole.norm();
-    let name = describe_pole(started.unwrap_or(pole));
+) -> Option<DroppedPole> {
+    if pole.held {
+        return None;
+    }
+    let value = pole.value;
+    let (hz, zeta) = (value.im / TAU, damping_ratio(value));
+    let fault = |reason: String| Some(DroppedPole { value: started.unwrap_or(value), reason });
     if zeta.is_nan() || zeta <= 0.0 {
-        return Some(format!("{name}: not positively damped when fitted to the FRFs"));
+        return fault("not positively damped when fitted to the FRFs".into());
     }
     if hz < band[0] || hz > band[1] {
-        return Some(format!("{name}: outside the band when fitted to the FRFs"));
+        return fault("outside the band when fitted to the FRFs".into());
     }
     if zeta > settings.largest_damping {
-        return Some(format!("{name}: damping above the limit when fitted to the FRFs"));
+        return fault("damping above the limit when fitted to the FRFs".into());
     }
-    match started {
-        Some(first) if (pole.im / first.im - 1.0).abs() > MAX_FREQUENCY_DRIFT => {
-            Some(format!("{name}: moves to {hz:.3} Hz when fitted to the FRFs"))
-        }
-        _ => None,
-    }
+    let moved = match (started, &pole.stable) {
+        (Some(first), _) if (value.im / first.im - 1.0).abs() > MAX_FREQUENCY_DRIFT => true,
+        (_, Some(stable)) if stable.support >= MIN_HELD_SUPPORT => has_drifted(value, stable),
+        _ => false,
+    };
+    if moved { fault(format!("moves to {hz:.3} Hz when fitted to the FRFs")) } else { None }
 }
 
-fn significance_fault(pole: &Pole, covariance: PoleCovariance, significance: f64) -> Option<String> {
+/// Whether a pole has left the stable pole that it was refined from.
+fn has_drifted(value: Complex64, stable: &StablePole) -> bool {
+    let first = stable.value;
+    let far = (MAX_FREQUENCY_DRIFT * first.im).max(first.re.abs());
+    let broad = damping_ratio(value) > (MAX_DAMPING_GROWTH * damping_ratio(first)).max(MIN_BROAD_DAMPING);
+    (value.im - first.im).abs() > far || broad
+}
+
+fn significance_fault(pole: &Pole, covariance: PoleCovariance, significance: f64) -> Option<DroppedPole> {
     let (frequency, damping) = standard_errors(pole.value, covariance);
-    let zeta = -pole.value.re / pole.value.norm();
-    let name = describe_pole(pole.value);
+    let zeta = damping_ratio(pole.value);
+    let fault = |reason: String| Some(DroppedPole { value: pole.value, reason });
     if significance < MIN_SIGNIFICANCE {
-        return Some(format!("{name}: not significant against noise (F = {significance:.1})"));
+        return fault(format!("not significant against noise (F = {significance:.1})"));
     }
     let uncertain =
         frequency > MAX_FREQUENCY_ERROR * pole.value.im / TAU || damping > MAX_DAMPING_ERROR * zeta;
-    uncertain.then(|| {
-        format!("{name}: standard error too large ({frequency:.2e} Hz, damping {:.2e} %)", 100.0 * damping)
-    })
+    if uncertain {
+        fault(format!("standard error too large ({frequency:.2e} Hz, damping {:.2e} %)", 100.0 * damping))
+    } else {
+        None
+    }
 }
 
 /// Distance, in decay rates, below which two poles may be duplicates.
@@ -182,41 +323,62 @@ const MIN_DUPLICATE_MAC: f64 = 0.7;
 ///
 /// MAC of the shapes as measured or as scaled for the fit: the fit's weights amplify outputs of small motion,
 /// over which duplicates split at random.
-fn duplicate_fault(data: &Data, at: &FitPoint, m: usize, significance: &[f64]) -> Option<String> {
+fn duplicate_fault(data: &Data, at: &FitPoint, m: usize, significance: &[f64]) -> Option<DroppedPole> {
     let fitted = |m: usize| (0..at.x.ncols()).map(|o| at.shape(m, o)).collect::<Vec<_>>();
     let measured = |m: usize| {
         let scaled = fitted(m).into_iter().zip(&data.output_scale);
         scaled.map(|(v, scale)| v * *scale).collect::<Vec<_>>()
     };
-    let own = &at.poles[m];
-    let other = (0..at.poles.len()).filter(|&k| k != m && significance[k] > significance[m]).find(|&k| {
-        let other = &at.poles[k];
-        let near = (own.value - other.value).norm()
-            < MAX_DUPLICATE_DISTANCE * own.value.re.abs().max(other.value.re.abs());
+    let other = stronger_neighbours(at, m, significance).find(|&k| {
         let shape_mac = || mac(&fitted(m), &fitted(k)).max(mac(&measured(m), &measured(k)));
-        near && at.x.ncols() >= MIN_DUPLICATE_OUTPUTS && shape_mac() > MIN_DUPLICATE_MAC
+        at.x.ncols() >= MIN_DUPLICATE_OUTPUTS && shape_mac() > MIN_DUPLICATE_MAC
     })?;
-    Some(format!(
-        "{}: duplicate of the mode at {:.3} Hz",
-        describe_pole(own.value),
-        at.poles[other].value.im / TAU
-    ))
+    let reason = format!("duplicate of the mode at {:.3} Hz", at.poles[other].value.im / TAU);
+    Some(DroppedPole { value: at.poles[m].value, reason })
 }
 
-/// Reweights every FRF by the residual of a fit; returns its poles in the new scales.
+/// More significant modes so close to a mode that it may be a duplicate of them.
+fn stronger_neighbours<'a>(
+    at: &'a FitPoint,
+    m: usize,
+    significance: &'a [f64],
+) -> impl Iterator<Item = usize> + 'a {
+    let own = at.poles[m].value;
+    (0..at.poles.len()).filter(move |&k| {
+        let other = at.poles[k].value;
+        let near = (own - other).norm() < MAX_DUPLICATE_DISTANCE * own.re.abs().max(other.re.abs());
+        k != m && significance[k] > significance[m] && near
+    })
+}
+
+/// Reweights every FRF by its noise and by the misfit of a fit; returns its poles in the new scales.
+///
+/// The misfit, over the size of an FRF, is the median of all: weights by each FRF's own would follow the few
+/// FRFs that the model happens to fit.
 fn reweight(data: &mut Data, found: FitPoint) -> Vec<Pole> {
     let fit = Problem::new(data).fit(&found);
     let model = synthesise(data, &found.poles, &fit);
     let left = |frf: &[Complex64], model: &[Complex64]| {
         let sum: f64 = frf.iter().zip(model).map(|(h, m)| (h - m).norm_sqr()).sum();
-        (sum / frf.len() as f64).sqrt()
+        sum / frf.len() as f64
     };
-    let mut sizes: Vec<Vec<f64>> = data
-        .values
+    let all = || data.values.iter().flatten();
+    let noise: Vec<f64> = all().map(|frf| noise_rms(frf).powi(2)).collect();
+    let square: Vec<f64> = all().map(|frf| rms(frf).powi(2)).collect();
+    let rest: Vec<f64> = all().zip(model.iter().flatten()).map(|(frf, model)| left(frf, model)).collect();
+    let mut misfits: Vec<f64> = rest
         .iter()
-        .zip(&model)
-        .map(|(row, model)| row.iter().zip(model).map(|(frf, model)| left(frf, model)).collect())
+        .zip(&noise)
+        .zip(&square)
+        .filter(|(_, size)| **size > 0.0)
+        .map(|((rest, noise), size)| (rest - noise).max(0.0) / size)
         .collect();
+    misfits.sort_by(f64::total_cmp);
+    let misfit = misfits.get(misfits.len() / 2).copied().unwrap_or(0.0);
+    let inputs = data.inputs();
+    let size = |k: usize| (noise[k] + misfit * square[k]).sqrt();
+    let mut sizes: Vec<Vec<f64>> =
+        (0..data.outputs()).map(|o| (0..inputs).map(|i| size(o * inputs + i)).collect()).collect();
     // Lower limit of the scale: a thousandth of the largest residual.
     let floor = 1e-3 * sizes.iter().flatten().copied().fold(0.0, f64::max);
     sizes.iter_mut().flatten().for_each(|size| *size = size.max(floor));

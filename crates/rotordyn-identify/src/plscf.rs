@@ -25,6 +25,27 @@ pub(super) struct Pole {
     pub value: Complex64,
     /// Participation l over the inputs (scaled data), its largest entry 1.
     pub participation: Vec<Complex64>,
+    /// The stable pole of many orders that this one was refined from.
+    pub stable: Option<StablePole>,
+    /// Whether the pole stays at its value in a refinement.
+    pub held: bool,
+}
+
+/// A pole that many orders share.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StablePole {
+    /// Median over the orders \[1/s\].
+    pub value: Complex64,
+    /// Standard deviations of its real and imaginary part over the orders \[1/s\].
+    pub spread: [f64; 2],
+    /// Sum of the similarities over the orders, relative to their number: 0..1.
+    pub support: f64,
+}
+
+impl Pole {
+    pub fn new(value: Complex64, participation: Vec<Complex64>) -> Self {
+        Self { value, participation, stable: None, held: false }
+    }
 }
 
 /// Reduced normal equations, and the mapping between z and s.
@@ -169,7 +190,7 @@ impl NormalEquations {
                 continue;
             }
             let l: Vec<Complex64> = (0..ni).map(|i| vectors[(size - ni + i, k)]).collect();
-            poles.push(Pole { value, participation: normalise_largest(l) });
+            poles.push(Pole::new(value, normalise_largest(l)));
         }
         poles.sort_by(|a, b| a.value.im.total_cmp(&b.value.im));
         Ok(poles)

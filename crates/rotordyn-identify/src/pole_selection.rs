@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 use super::data::Data;
 use super::lsfd::free_residues;
 use super::mac::mac;
-use super::plscf::{Pole, normalise_largest};
+use super::plscf::{Pole, StablePole, normalise_largest};
 use super::stabilisation::Candidate;
 use rotordyn_linalg::Complex64;
 
@@ -35,8 +35,19 @@ pub(super) struct Cluster {
     pub score: f64,
     /// Mean number of poles per order in the cluster.
     multiplicity: f64,
+    /// Standard deviations of the real and imaginary part over the members.
+    spread: [f64; 2],
     /// Indices of the candidates.
     pub members: Vec<usize>,
+}
+
+impl Cluster {
+    /// The pole of the cluster, of `orders` orders.
+    fn pole(&self, orders: usize) -> Pole {
+        let support = self.score / orders as f64;
+        let stable = StablePole { value: self.value, spread: self.spread, support };
+        Pole { stable: Some(stable), ..Pole::new(self.value, self.participation.clone()) }
+    }
 }
 
 /// Selected poles in order of frequency: start values of the refinement.
@@ -64,12 +75,12 @@ pub(super) fn select_poles(data: &Data, candidates: &[Candidate], orders: usize)
     for (k, mut group) in groups.into_iter().enumerate() {
         let first = group.swap_remove(best(&group));
         if group.is_empty() && first.multiplicity <= 1.4 {
-            poles.push(Pole { value: first.value, participation: first.participation });
+            poles.push(first.pole(orders));
             continue;
         }
         let (directions, sizes) = directions(&residues[k]);
         if sizes.len() < 2 || sizes[1] < SECOND_MODE_RATIO * sizes[0] {
-            poles.push(Pole { value: first.value, participation: first.participation });
+            poles.push(first.pole(orders));
             continue;
         }
         // Second mode: the cluster with the lowest MAC to the first, else the residues' second direction.
@@ -79,12 +90,13 @@ pub(super) fn select_poles(data: &Data, candidates: &[Candidate], orders: usize)
         });
         match unlike.filter(|c| mac(&c.participation, &first.participation) < 0.8) {
             Some(second) => {
-                poles.push(Pole { value: first.value, participation: first.participation });
-                poles.push(Pole { value: second.value, participation: second.participation });
+                poles.push(first.pole(orders));
+                poles.push(second.pole(orders));
             }
             None => {
                 for direction in directions.into_iter().take(2) {
-                    poles.push(Pole { value: first.value, participation: normalise_largest(direction) });
+                    let pole = first.pole(orders);
+                    poles.push(Pole { participation: normalise_largest(direction), ..pole });
                 }
             }
         }
@@ -151,6 +163,12 @@ fn cluster(sorted: &[&Candidate], members: &[usize], seed: usize, score: f64) ->
         list.sort_by(f64::total_cmp);
         list[list.len() / 2]
     };
+    let spread = |part: &dyn Fn(&Complex64) -> f64| {
+        let count = members.len() as f64;
+        let list = || members.iter().map(|&j| part(&sorted[j].pole.value));
+        let mean = list().sum::<f64>() / count;
+        (list().map(|v| (v - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0)).sqrt()
+    };
     let mut seen: Vec<usize> = members.iter().map(|&j| sorted[j].order).collect();
     seen.sort_unstable();
     seen.dedup();
@@ -159,6 +177,7 @@ fn cluster(sorted: &[&Candidate], members: &[usize], seed: usize, score: f64) ->
         participation: sorted[seed].pole.participation.clone(),
         score,
         multiplicity: members.len() as f64 / seen.len() as f64,
+        spread: [spread(&|v| v.re), spread(&|v| v.im)],
         members: Vec::new(),
     }
 }
@@ -178,7 +197,7 @@ fn similarity(a: &Candidate, b: &Candidate) -> f64 {
 }
 
 /// Right singular vectors of a residue matrix (as participations) and its singular values, descending.
-fn directions(residue: &DMatrix<Complex64>) -> (Vec<Vec<Complex64>>, Vec<f64>) {
+pub(super) fn directions(residue: &DMatrix<Complex64>) -> (Vec<Vec<Complex64>>, Vec<f64>) {
     let svd = residue.clone().svd(false, true);
     let Some(v) = svd.v_t else { return (Vec::new(), Vec::new()) };
     let mut order: Vec<usize> = (0..svd.singular_values.len()).collect();

@@ -102,6 +102,9 @@ impl GaussNewtonStep {
 
     /// A diagonal block of (JᵀJ)⁻¹.
     pub fn inverse_block(&self, first: usize, count: usize) -> DMatrix<f64> {
+        if count == 0 {
+            return DMatrix::zeros(0, 0);
+        }
         let mut square = self.normal_matrix.clone();
         // Regularised: repeated poles leave the rotation of their participations undetermined.
         (0..square.nrows()).for_each(|k| square[(k, k)] *= 1.0 + 1e-12);
@@ -154,9 +157,17 @@ impl<'a> Problem<'a> {
         self.data
     }
 
+    /// Sum of squares of the FRFs.
+    pub fn energy(&self) -> f64 {
+        self.y.norm_squared()
+    }
+
     /// Minimises the sum of squared residuals of the FRFs, in at most `steps` steps.
     pub fn refine(&self, poles: Vec<Pole>, steps: usize) -> FitPoint {
         let mut at = FitPoint::new(&self.basis, &self.y, poles);
+        if at.poles.iter().all(|pole| pole.held) {
+            return at;
+        }
         let least = ROUND_OFF * self.y.norm_squared();
         let mut damping = 1e-3;
         'steps: for _ in 0..steps {
@@ -190,6 +201,12 @@ impl<'a> Problem<'a> {
 
     pub fn step(&self, at: &FitPoint) -> GaussNewtonStep {
         GaussNewtonStep::new(&self.basis, at)
+    }
+
+    /// Derivatives of the FRFs by a pole, for the real and imaginary part of ψ δλ: two columns.
+    pub fn pole_derivative(&self, pole: &Pole) -> DMatrix<f64> {
+        let free = Pole::new(pole.value, pole.participation.clone());
+        self.basis.derivative_columns(&[free]).0.columns(0, 2).into_owned()
     }
 
     pub fn fit(&self, at: &FitPoint) -> Fit {

@@ -4,6 +4,7 @@ use rotordyn_linalg::Complex64;
 use rotordyn_signal::Quantity;
 use rotordyn_signal::record::Dof;
 use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
 
 /// One identified mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,12 +27,59 @@ pub struct Mode {
     pub whirl: Option<f64>,
     /// F statistic of the mode: variance that it explains over residual variance.
     pub significance: f64,
+    /// What makes the mode doubtful; empty for a mode beyond doubt.
+    pub quality_warnings: Vec<QualityWarning>,
+}
+
+/// What makes a mode doubtful.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum QualityWarning {
+    /// Two close modes fit the FRFs better than this one: two modes, or one that differs between the FRFs.
+    MaybeTwo,
+    /// With its close neighbour it may be one mode that differs between the FRFs.
+    MaybeOne,
+    /// Refinement leads away from the stable pole of the stabilisation diagram, which was kept.
+    Held,
+    /// Phase collinearity (MPC) below 0.7 without whirl.
+    LowCollinearity,
+}
+
+impl QualityWarning {
+    /// Label.
+    pub fn label(self) -> &'static str {
+        match self {
+            QualityWarning::MaybeTwo => "maybe two modes",
+            QualityWarning::MaybeOne => "maybe one with its neighbour",
+            QualityWarning::Held => "stable pole, not refined",
+            QualityWarning::LowCollinearity => "low phase collinearity",
+        }
+    }
+}
+
+/// A stable pole that is no mode, with the reason.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DroppedPole {
+    /// λ \[1/s\], without correction for an exponential window.
+    pub value: Complex64,
+    pub reason: String,
+}
+
+impl Display for DroppedPole {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (hz, damping) = (self.value.im / TAU, -100.0 * self.value.re / self.value.norm());
+        write!(f, "{hz:.3} Hz, damping {damping:.3} %: {}", self.reason)
+    }
 }
 
 impl Mode {
     /// Damped frequency Im λ / 2π \[Hz\].
     pub fn frequency_hz(&self) -> f64 {
         self.pole.im / TAU
+    }
+
+    /// Natural (undamped) frequency |λ| / 2π \[Hz\].
+    pub fn natural_frequency_hz(&self) -> f64 {
+        self.pole.norm() / TAU
     }
 
     /// Damping ratio ζ = −Re λ / |λ|.
@@ -101,8 +149,10 @@ pub struct ModalIdentification {
     pub lower: Vec<Vec<f64>>,
     pub diagram: Vec<DiagramPole>,
     pub orders: Vec<usize>,
-    /// Stable poles that were rejected afterwards, with the reason.
-    pub dropped: Vec<String>,
+    /// Stable poles that were rejected afterwards.
+    pub dropped: Vec<DroppedPole>,
+    /// Bands that were identified one by one \[Hz\]; one band unless the record holds too much for one.
+    pub bands: Vec<[f64; 2]>,
 }
 
 impl ModalIdentification {

@@ -18,37 +18,52 @@ use nalgebra::{Cholesky, DMatrix};
 use rayon::prelude::*;
 
 use super::data::Data;
+use super::plscf::Pole;
 use super::refine::{FitPoint, GaussNewtonStep};
 use rotordyn_linalg::Complex64;
 
 /// Variances of Re λ and Im λ, and their covariance.
 pub(super) type PoleCovariance = [f64; 3];
 
-/// Rows of (JᵀJ)⁻¹ that belong to poles; `None` if JᵀJ is singular (poles not distinguishable).
-fn pole_rows(step: &GaussNewtonStep) -> Option<(Vec<usize>, DMatrix<f64>)> {
+/// First parameter of each mode's pole, and rows of (JᵀJ)⁻¹ that belong to poles, two for each mode; `None` if JᵀJ is
+/// singular (poles not distinguishable). A held pole has no parameter and rows of zeros.
+fn pole_rows(at: &FitPoint, step: &GaussNewtonStep) -> Option<(Vec<Option<usize>>, DMatrix<f64>)> {
+    let own: Vec<Option<usize>> = (0..at.poles.len())
+        .map(|m| step.parameters.iter().position(|p| p.mode == m && p.input.is_none()).map(|k| 2 * k))
+        .collect();
+    if step.parameters.is_empty() {
+        return Some((own, DMatrix::zeros(2 * at.poles.len(), 0)));
+    }
     let mut square = step.normal_matrix.clone();
     let n = square.nrows();
     // Regularised: repeated poles leave the rotation of their participations undetermined.
     (0..n).for_each(|k| square[(k, k)] *= 1.0 + 1e-12);
     let inverse = Cholesky::new(square)?.inverse();
-    let own: Vec<usize> = (0..step.parameters.len())
-        .filter(|&k| step.parameters[k].input.is_none())
-        .flat_map(|k| [2 * k, 2 * k + 1])
-        .collect();
-    let rows = DMatrix::from_fn(own.len(), n, |i, j| inverse[(own[i], j)]);
+    let rows = DMatrix::from_fn(2 * own.len(), n, |i, j| own[i / 2].map_or(0.0, |k| inverse[(k + i % 2, j)]));
     Some((own, rows))
 }
 
 /// Covariances assuming white residuals of one variance: fast, for the selection.
 pub(super) fn white_noise_covariance(at: &FitPoint, step: &GaussNewtonStep) -> Vec<PoleCovariance> {
-    let Some((own, rows)) = pole_rows(step) else { return infinite_covariance(at) };
+    let Some((own, rows)) = pole_rows(at, step) else { return infinite_covariance(at) };
     let noise = at.residual_variance();
     (0..at.poles.len())
         .map(|m| {
             let (a, b) = (2 * m, 2 * m + 1);
-            [noise * rows[(a, own[a])], noise * rows[(b, own[b])], noise * rows[(a, own[b])]]
+            match own[m] {
+                Some(k) => [noise * rows[(a, k)], noise * rows[(b, k + 1)], noise * rows[(a, k + 1)]],
+                None => held_covariance(&at.poles[m]),
+            }
         })
         .collect()
+}
+
+/// Covariance of a held pole: its scatter over the orders of the stabilisation diagram.
+fn held_covariance(pole: &Pole) -> PoleCovariance {
+    pole.stable.map_or([f64::INFINITY, f64::INFINITY, 0.0], |stable| {
+        let [re, im] = stable.spread;
+        [re * re, im * im, 0.0]
+    })
 }
 
 fn infinite_covariance(at: &FitPoint) -> Vec<PoleCovariance> {
@@ -57,7 +72,7 @@ fn infinite_covariance(at: &FitPoint) -> Vec<PoleCovariance> {
 
 /// Covariances by the grouped jackknife (leave one group out).
 pub(super) fn covariance(data: &Data, at: &FitPoint, step: &GaussNewtonStep) -> Vec<PoleCovariance> {
-    let Some((_, lambda)) = pole_rows(step) else { return infinite_covariance(at) };
+    let Some((_, lambda)) = pole_rows(at, step) else { return infinite_covariance(at) };
     let groups = JackknifeGroups::new(at, step, &lambda);
     let (lines, inputs, outputs) = (data.lines(), data.inputs(), data.outputs());
     let all: Vec<usize> = (0..outputs).collect();
@@ -81,7 +96,11 @@ pub(super) fn covariance(data: &Data, at: &FitPoint, step: &GaussNewtonStep) -> 
     }
     let white = white_noise_covariance(at, step);
     let share = sizes.response / at.residual_variance().max(f64::MIN_POSITIVE);
-    total.iter().zip(white).map(|(sum, white)| sum.covariance(white, share, sizes.force)).collect()
+    let of_mode = |m: usize| match at.poles[m].held {
+        true => held_covariance(&at.poles[m]),
+        false => total[m].covariance(white[m], share, sizes.force),
+    };
+    (0..at.poles.len()).map(of_mode).collect()
 }
 
 /// Weight of the noise model, as an equivalent number of groups.

@@ -1,7 +1,7 @@
 //! Identified modes (experimental modal analysis): what is written to files, and shapes for other programs.
 
 use rotordyn_core::document::{Array, Document, Rows, Section, in_hdf5, in_json, named};
-use rotordyn_identify::{DiagramPole, ModalIdentification, Mode};
+use rotordyn_identify::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning};
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::record::{Analysis, Dof, Geometry, MeasuredData, Shape};
 
@@ -33,7 +33,8 @@ fn document(found: &ModalIdentification) -> Document<'_> {
             Array::real(&[responses, references], "1", found.errors.concat()),
         )
         .array("auto_mac", Array::real(&[modes, modes], "1", found.auto_mac().concat()))
-        .texts("dropped", &found.dropped)
+        .texts("dropped", found.dropped.iter().map(DroppedPole::to_string))
+        .array(in_json("bands_hz"), Array::real(&[found.bands.len(), 2], "Hz", found.bands.concat()))
         .numbers(in_hdf5("frequencies"), "Hz", &found.frequencies)
         .array(in_hdf5("measured"), frfs(&found.measured))
         .array(in_hdf5("synthesised"), frfs(&found.synthesised))
@@ -58,6 +59,10 @@ fn mode_rows<'r>(found: &'r ModalIdentification) -> Rows<'r, 'r, Mode> {
         .number("phase_collinearity", "1", |m| m.collinearity)
         .optional("whirl", "1", |m| m.whirl)
         .number("significance", "1", |m| m.significance)
+        .number(named("natural_frequency_hz", "natural_frequency"), "Hz", Mode::natural_frequency_hz)
+        .text("quality_warnings", |m| {
+            m.quality_warnings.iter().copied().map(QualityWarning::label).collect::<Vec<_>>().join("; ")
+        })
 }
 
 /// Poles of all model orders with their stability.

@@ -1,4 +1,4 @@
-//! Footnote of a figure: the warnings of its results, by code and item.
+//! Footnotes of a figure: the warnings of its results, by code and item; lists.
 
 use super::font;
 use super::style::{LEFT, MUTED, RIGHT, SMALL};
@@ -18,13 +18,18 @@ pub(crate) fn add(page: &mut Svg, warnings: &[Warning]) {
             parts.push(part);
         }
     }
+    list(page, "Warnings:", &parts, ",");
+}
+
+/// Adds parts behind a heading below everything drawn, in lines of the page's width; nothing without any.
+pub(crate) fn list(page: &mut Svg, heading: &str, parts: &[String], separator: &str) {
     if parts.is_empty() {
         return;
     }
     let room = page.width - LEFT - RIGHT;
-    let mut lines = vec![String::from("Warnings:")];
+    let mut lines = vec![String::from(heading)];
     for (k, part) in parts.iter().enumerate() {
-        let word = format!(" {part}{}", if k + 1 < parts.len() { "," } else { "" });
+        let word = format!(" {part}{}", if k + 1 < parts.len() { separator } else { "" });
         let last = lines.len() - 1;
         if font::width(&format!("{}{word}", lines[last]), SMALL) > room {
             lines.push(word);

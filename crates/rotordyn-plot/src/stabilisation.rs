@@ -2,6 +2,7 @@
 //! (CMIF).
 
 use super::axes::{Axes, Frame, Marker};
+use super::footnote;
 use super::labels::{EndLabel, Entry, end_labels, page_heading};
 use super::scale::Range;
 use super::style::*;
@@ -29,8 +30,10 @@ pub struct Stabilisation {
     /// Frequencies \[Hz\] and values of these curves (any unit), the largest first.
     pub hz: Vec<f64>,
     pub curves: Vec<Vec<f64>>,
-    /// Frequencies \[Hz\] of the selected modes.
-    pub selected: Vec<f64>,
+    /// Frequencies \[Hz\] of the selected modes, and whether they are doubtful.
+    pub selected: Vec<(f64, bool)>,
+    /// Frequencies \[Hz\] of stable poles that are no modes, with the reason.
+    pub dropped: Vec<(f64, String)>,
 }
 
 const STATES: [(PoleStability, &str, Marker, Color); 5] = [
@@ -53,7 +56,18 @@ pub fn draw(data: &Stabilisation) -> Svg {
         })
         .collect();
     entries.push(Entry::line(&data.curves_name, Style::stroke(PALE, 1.2)));
-    entries.push(Entry::line("selected mode", Style::stroke(RED, 0.9).dashed(Dash::Short)));
+    let selected = |doubtful: bool| match doubtful {
+        false => Style::stroke(RED, 0.9).dashed(Dash::Short),
+        true => Style::stroke(ORANGE, 0.9).dashed(Dash::Dotted),
+    };
+    entries.push(Entry::line("selected mode", selected(false)));
+    if data.selected.iter().any(|(_, doubtful)| *doubtful) {
+        entries.push(Entry::line("doubtful mode", selected(true)));
+    }
+    let dropped = Style::stroke(MUTED, 0.9);
+    if !data.dropped.is_empty() {
+        entries.push(Entry::marker("dropped", Marker::Diamond, dropped));
+    }
     let (mut svg, top) = page_heading(WIDTH, LEFT, &data.title, &data.note, &entries);
     let frame = Frame { x: LEFT, y: top + 30.0, w: WIDTH - LEFT - RIGHT, h: 400.0 };
     let x = match (data.hz.first(), data.hz.last()) {
@@ -69,14 +83,17 @@ pub fn draw(data: &Stabilisation) -> Svg {
         behind.curve(&mut svg, &data.hz, curve, Style::stroke(PALE, if k == 0 { 1.6 } else { 0.9 }));
     }
     let mut labels = Vec::new();
-    for hz in &data.selected {
-        axes.segment(
-            &mut svg,
-            [*hz, axes.y.range.lo],
-            [*hz, axes.y.range.hi],
-            Style::stroke(RED, 0.9).dashed(Dash::Short),
-        );
-        labels.push(EndLabel { at: axes.at(*hz, axes.y.range.hi), text: format!("{hz:.1}"), color: RED });
+    for (hz, doubtful) in &data.selected {
+        let style = selected(*doubtful);
+        axes.segment(&mut svg, [*hz, axes.y.range.lo], [*hz, axes.y.range.hi], style);
+        let color = if *doubtful { ORANGE } else { RED };
+        labels.push(EndLabel { at: axes.at(*hz, axes.y.range.hi), text: format!("{hz:.1}"), color });
+    }
+    for (hz, _) in &data.dropped {
+        let at = axes.at(*hz, axes.y.range.hi);
+        if axes.contains(at) {
+            Marker::Diamond.draw(&mut svg, at, dropped);
+        }
     }
     for (state, _, marker, color) in STATES {
         for (hz, order, _) in data.poles.iter().filter(|p| p.2 == state) {
@@ -89,5 +106,8 @@ pub fn draw(data: &Stabilisation) -> Svg {
     end_labels(&mut svg, &axes, &labels);
     axes.border(&mut svg, Some(&axes.x.label("frequency", "Hz")), "model order");
     svg.height = frame.bottom() + BOTTOM;
+    let reasons: Vec<String> =
+        data.dropped.iter().map(|(hz, reason)| format!("{hz:.2} Hz {reason}")).collect();
+    footnote::list(&mut svg, "Dropped:", &reasons, ";");
     svg
 }

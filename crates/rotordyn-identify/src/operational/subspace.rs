@@ -114,7 +114,7 @@ impl Subspace {
                     continue;
                 }
                 let shape = normalise_largest(self.shape(&model, k));
-                let pole = Pole { value, participation: vec![1.0.into()] };
+                let pole = Pole::new(value, vec![1.0.into()]);
                 list.push(Candidate { order: index, pole, shape, double: false });
             }
             list.sort_by(|a, b| a.pole.value.im.total_cmp(&b.pole.value.im));

@@ -1,7 +1,12 @@
 //! Poles and mode shapes of exact and noisy FRFs, refusals.
 
+mod drift;
 mod exact;
+mod full_band;
 mod known_modes;
+mod model_error;
 mod noise;
+mod pairs;
+mod random;
 mod refusals;
 mod single;

@@ -161,7 +161,7 @@ fn of_frfs(measured: &MeasuredData, reading: &ReadSettings, model: &Model) -> Re
     let found = identify::identify(&matrix, &settings)?;
     let speeds: Vec<f64> = measured.records.iter().filter_map(|r| r.speed_rpm).collect();
     let speed = reading.speed.or(speeds.first().map(|rpm| rpm * TAU / 60.0)).unwrap_or(0.0);
-    let mut warnings = found.dropped.clone();
+    let mut warnings: Vec<String> = found.dropped.iter().map(ToString::to_string).collect();
     warnings.extend(zero_response_warnings);
     if speeds.iter().any(|s| (s - speeds[0]).abs() > 1.0) {
         warnings.push("the FRFs were measured at different speeds; the first is taken for all".into());

@@ -1,5 +1,7 @@
 //! Figures of an identification: stabilisation diagram, auto-MAC, synthesised FRFs, mode shapes.
 
+use std::f64::consts::TAU;
+
 use nalgebra::DMatrix;
 
 use super::Named;
@@ -22,9 +24,12 @@ pub fn figures(
     title: &str,
 ) -> Vec<Named> {
     let selected: Vec<f64> = found.modes.iter().map(Mode::frequency_hz).collect();
+    let doubtful = found.modes.iter().map(|m| !m.quality_warnings.is_empty());
+    let dropped = found.dropped.iter().map(|pole| (pole.value.im / TAU, pole.reason.clone()));
     let mut figures = vec![stabilisation(
         &found.diagram,
-        selected.clone(),
+        selected.iter().copied().zip(doubtful).collect(),
+        dropped.collect(),
         found.frequencies.clone(),
         ("mode indicator", mode_indicator(found)),
         title,
@@ -53,7 +58,8 @@ pub fn operational_figures(found: &OperationalModes, geometry: &Geometry, title:
     let curves = found.spectrum.values.iter().map(|v| v.iter().map(|v| v.sqrt()).collect()).collect();
     let mut figures = vec![stabilisation(
         &found.diagram,
-        selected.clone(),
+        selected.iter().map(|hz| (*hz, false)).collect(),
+        Vec::new(),
         found.spectrum.frequencies.clone(),
         ("singular values of the spectral matrix", curves),
         title,
@@ -78,7 +84,8 @@ pub fn operational_figures(found: &OperationalModes, geometry: &Geometry, title:
 
 fn stabilisation(
     diagram: &[DiagramPole],
-    selected: Vec<f64>,
+    selected: Vec<(f64, bool)>,
+    dropped: Vec<(f64, String)>,
     hz: Vec<f64>,
     (curves_name, curves): (&str, Vec<Vec<f64>>),
     title: &str,
@@ -90,7 +97,7 @@ fn stabilisation(
         Stability::Shape => PoleStability::Shape,
         Stability::Stable => PoleStability::Stable,
     };
-    let pole_hz = |pole: Complex64| pole.im / std::f64::consts::TAU;
+    let pole_hz = |pole: Complex64| pole.im / TAU;
     let figure = Stabilisation {
         title: "Stabilisation diagram".into(),
         note: format!(
@@ -101,6 +108,7 @@ fn stabilisation(
         hz,
         curves,
         selected,
+        dropped,
     };
     ("stabilisation".into(), Figure::Stabilisation(figure))
 }

@@ -1,0 +1,145 @@
+//! Identification of one band: poles, selection, refinement, and their result in the units of the FRFs.
+
+use super::data::Data;
+use super::mode_selection::{SelectedModes, select_modes, synthesise};
+use super::plscf::{NormalEquations, Pole, normalise_largest};
+use super::result::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning};
+use super::{IdentifyError, Settings, lsfd, mac, pole_selection, stabilisation, uncertainty, whirl};
+use rotordyn_linalg::Complex64;
+use rotordyn_signal::Quantity;
+use rotordyn_signal::record::FrfMatrix;
+
+/// Lowest order tried.
+const LOWEST_ORDER: usize = 2;
+/// Phase collinearity below which a mode without whirl is doubtful, and the least number of points for it.
+const MIN_COLLINEARITY: f64 = 0.7;
+const MIN_COLLINEAR_POINTS: usize = 3;
+/// Whirl measure below which an orbit counts as a straight line.
+const STRAIGHT: f64 = 0.1;
+
+/// Identifies the modes of prepared FRFs in one band.
+pub(super) fn identify_band(
+    frfs: &FrfMatrix,
+    settings: &Settings,
+    mut data: Data,
+) -> Result<ModalIdentification, IdentifyError> {
+    let equations = NormalEquations::new(&data, settings)?;
+    let orders: Vec<usize> = (LOWEST_ORDER..=data.max_order(settings)).collect();
+    let candidates = stabilisation::candidates(&data, equations.poles(&orders)?)?;
+    let diagram = stabilisation::diagram(&candidates, &orders);
+    let poles = pole_selection::select_poles(&data, &candidates, orders.len());
+    let mut dropped = Vec::new();
+    let selected =
+        if poles.is_empty() { None } else { select_modes(&mut data, poles, settings, &mut dropped) };
+    let found = selected.ok_or(IdentifyError::NoMode {
+        from: data.frequencies[0],
+        to: data.frequencies[data.lines() - 1],
+        poles: candidates.len(),
+        orders: orders.len(),
+    })?;
+    // A pole may be dropped before and after the reweighting.
+    let earlier = std::mem::take(&mut dropped);
+    for pole in earlier {
+        dropped.retain(|known: &DroppedPole| known.value != pole.value);
+        dropped.push(pole);
+    }
+    Ok(assemble_result(frfs, settings, &data, found, diagram, orders, dropped))
+}
+
+fn assemble_result(
+    frfs: &FrfMatrix,
+    settings: &Settings,
+    data: &Data,
+    found: SelectedModes,
+    diagram: Vec<DiagramPole>,
+    orders: Vec<usize>,
+    dropped: Vec<DroppedPole>,
+) -> ModalIdentification {
+    let model = synthesise(data, &found.poles, &found.fit);
+    let scale = |o: usize, i: usize| data.output_scale[o] * data.input_scale[i];
+    let (responses, references) = (frfs.responses.len(), frfs.references.len());
+    let place = |r: usize, e: usize| if data.swapped { (e, r) } else { (r, e) };
+    let table = |of: &dyn Fn(usize, usize) -> f64| -> Vec<Vec<f64>> {
+        (0..responses)
+            .map(|r| {
+                (0..references)
+                    .map(|e| {
+                        let (o, i) = place(r, e);
+                        of(o, i)
+                    })
+                    .collect()
+            })
+            .collect()
+    };
+    let curves = |of: &[Vec<Vec<Complex64>>]| -> Vec<Vec<Vec<Complex64>>> {
+        let one = |r: usize, e: usize| {
+            let (o, i) = place(r, e);
+            of[o][i].iter().map(|h| h * scale(o, i)).collect()
+        };
+        (0..responses).map(|r| (0..references).map(|e| one(r, e)).collect()).collect()
+    };
+    let errors_of = table(&|o, i| {
+        let (mut rest, mut all) = (0.0, 0.0);
+        for (h, m) in data.values[o][i].iter().zip(&model[o][i]) {
+            rest += (h - m).norm_sqr();
+            all += h.norm_sqr();
+        }
+        if all > 0.0 { (rest / all).sqrt() } else { 0.0 }
+    });
+    let count = (responses * references) as f64;
+    let total_error = (errors_of.iter().flatten().map(|e| e * e).sum::<f64>() / count).sqrt();
+    let mut modes: Vec<Mode> = (0..found.poles.len())
+        .map(|m| {
+            let pole = &found.poles[m];
+            // The larger side carries the residue's magnitude, the smaller has a largest entry of 1.
+            let mut small: Vec<Complex64> =
+                pole.participation.iter().zip(&data.input_scale).map(|(l, b)| l * *b).collect();
+            let before = small.clone();
+            small = normalise_largest(small);
+            let k = lsfd::normalised_input(&Pole::new(pole.value, before.clone()));
+            let large: Vec<Complex64> =
+                found.fit.shapes[m].iter().zip(&data.output_scale).map(|(v, a)| v * *a * before[k]).collect();
+            let (frequency_error, damping_error) =
+                uncertainty::standard_errors(pole.value, found.covariance[m]);
+            let collinearity = mac::phase_collinearity(&large);
+            let points = large.len();
+            let (shape, participation) = if data.swapped { (small, large) } else { (large, small) };
+            let whirl = whirl::whirl(&frfs.responses, &shape)
+                .or_else(|| whirl::whirl(&frfs.references, &participation).map(|w| -w));
+            let mut quality_warnings = found.quality_warnings[m].clone();
+            let straight = whirl.is_none_or(|w| w.abs() < STRAIGHT);
+            if straight && points >= MIN_COLLINEAR_POINTS && collinearity < MIN_COLLINEARITY {
+                quality_warnings.push(QualityWarning::LowCollinearity);
+            }
+            Mode {
+                pole: pole.value + settings.added_decay,
+                shape,
+                participation,
+                frequency_error,
+                damping_error,
+                collinearity,
+                whirl,
+                significance: found.significance[m],
+                quality_warnings,
+            }
+        })
+        .collect();
+    modes.sort_by(|a, b| a.pole.im.total_cmp(&b.pole.im));
+    ModalIdentification {
+        modes,
+        responses: frfs.responses.clone(),
+        references: frfs.references.clone(),
+        quantity: [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration][data.power as usize],
+        frequencies: data.frequencies.clone(),
+        measured: curves(&data.values),
+        synthesised: curves(&model),
+        errors: errors_of,
+        total_error,
+        upper: table(&|o, i| found.fit.upper[o][i] * scale(o, i)),
+        lower: table(&|o, i| found.fit.lower[o][i] * scale(o, i)),
+        diagram,
+        orders,
+        dropped,
+        bands: vec![[data.frequencies[0], data.frequencies[data.lines() - 1]]],
+    }
+}

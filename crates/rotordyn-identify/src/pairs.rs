@@ -1,0 +1,330 @@
+//! Close pairs: modes that two close modes fit better.
+//!
+//! Two modes closer than their bandwidth, H = a/(s − λ − δ) + b/(s − λ + δ), are to first order a mode and a
+//! double pole: (a + b)/(s − λ) + δ(a − b)/(s − λ)². Around every mode the FRFs, less the other modes, are fitted with
+//! one and with two poles. A second pole is taken if the reduction of the residuals is significant, if it explains nearly all
+//! that noise does not, and if its shape is another: noise of the force and nonlinearities give it the same.
+//!
+//! FRFs of a structure that changes between hits (pole λ + δ_o of output o) have the same double pole: unless the fit is
+//! exact or the squared residuals fall to a hundredth with unlike shapes, the mode stays one and is marked.
+
+use std::f64::consts::TAU;
+
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+use super::Settings;
+use super::data::Data;
+use super::lsfd::{Fit, free_residues};
+use super::mac::mac;
+use super::plscf::{Pole, normalise_largest};
+use super::pole_selection::directions;
+use super::refine::{FitPoint, Problem};
+use rotordyn_linalg::Complex64;
+
+/// What a mode is.
+pub(super) enum Split {
+    One(Pole),
+    /// These two close modes, or one that differs between the FRFs.
+    Maybe([Pole; 2]),
+    Two([Pole; 2]),
+}
+
+impl Split {
+    pub fn poles(&self) -> &[Pole] {
+        match self {
+            Split::One(pole) => std::slice::from_ref(pole),
+            Split::Maybe(pair) | Split::Two(pair) => pair,
+        }
+    }
+
+    fn poles_mut(&mut self) -> &mut [Pole] {
+        match self {
+            Split::One(pole) => std::slice::from_mut(pole),
+            Split::Maybe(pair) | Split::Two(pair) => pair,
+        }
+    }
+}
+
+/// Half width of the window around a mode in half-power bandwidths, and in lines at least.
+const WINDOW: f64 = 2.0;
+const MIN_LINES: f64 = 20.0;
+/// Rounds in which pairs are sought.
+const ROUNDS: usize = 4;
+/// Steps of the fits around a mode with one pole and with two, and of the fit of all modes with the pairs of a round.
+const ONE_STEPS: usize = 4;
+const TWO_STEPS: usize = 12;
+const TOGETHER_STEPS: usize = 40;
+/// Principal directions of the outputs that are fitted around a mode: more than the modes there.
+const DIRECTIONS: usize = 6;
+/// Distances of the two poles at the start, over their decay rate.
+const START_DISTANCES: [f64; 2] = [0.2, 0.7];
+/// Minimum F statistic of a second pole.
+const MIN_SIGNIFICANCE: f64 = 10.0;
+/// Minimum share of the second pole in the energy of the FRFs in the window: 0.1 % of the amplitude.
+const MIN_SHARE: f64 = 1e-6;
+/// What the second pole explains over what neither it nor noise explains: less is as likely a structure that changes between
+/// hits, of which a second pole takes up a part.
+const MIN_EXPLAINED: f64 = 20.0;
+/// Residuals over the FRFs, squared, at which of one mode there is nothing left to explain; and at which a fit counts as
+/// exact, so that its modes are the only ones that explain the FRFs.
+const ROUND_OFF: f64 = 1e-20;
+const EXACT: f64 = 1e-15;
+/// MAC of shapes and of participations below which two close modes differ.
+const DIFFERENT_SHAPES: f64 = 0.9;
+const DIFFERENT_PARTICIPATIONS: f64 = 0.95;
+/// Reduction of the squared residuals that is taken for a second mode even with one input, if the shapes are unlike.
+const LARGE_REDUCTION: f64 = 100.0;
+const UNLIKE_SHAPES: f64 = 0.7;
+/// Distance over the larger decay rate below which a pair is close.
+const CLOSE: f64 = 1.5;
+/// Largest distance of a pair over the larger decay rate.
+const FARTHEST: f64 = 4.0;
+
+/// Every mode with what it is.
+///
+/// A pair that leaves much unexplained hides smaller ones nearby: pairs are sought in rounds, each with those of the rounds
+/// before in the model.
+pub(super) fn splits(problem: &Problem, at: &FitPoint, settings: &Settings) -> Vec<Split> {
+    let mut splits: Vec<Split> = at.poles.iter().cloned().map(Split::One).collect();
+    let mut refined: Option<FitPoint> = None;
+    for _ in 0..ROUNDS {
+        let model = refined.as_ref().unwrap_or(at);
+        let fit = problem.fit(model);
+        let mut place = 0;
+        let mut singles = Vec::new();
+        for (m, split) in splits.iter().enumerate() {
+            if matches!(split, Split::One(_)) {
+                singles.push((m, place));
+            }
+            place += split.poles().len();
+        }
+        let found: Vec<(usize, Split)> = singles
+            .into_par_iter()
+            .filter_map(|(m, place)| Some((m, pair_of(problem, &model.poles, &fit, place, settings)?)))
+            .collect();
+        if found.is_empty() {
+            break;
+        }
+        found.into_iter().for_each(|(m, split)| splits[m] = split);
+        let all = splits.iter().flat_map(|split| split.poles().to_vec()).collect();
+        let together = problem.refine(all, TOGETHER_STEPS);
+        let exact = is_exact(problem, &together);
+        let mut poles = together.poles.iter();
+        for split in &mut splits {
+            split.poles_mut().iter_mut().zip(&mut poles).for_each(|(own, refined)| own.clone_from(refined));
+            if exact && let Split::Maybe(pair) = split {
+                *split = Split::Two(pair.clone());
+            }
+        }
+        if exact {
+            break;
+        }
+        refined = Some(together);
+    }
+    splits
+}
+
+/// Two modes instead of one; `None` if it is one.
+fn pair_of(problem: &Problem, poles: &[Pole], fit: &Fit, m: usize, settings: &Settings) -> Option<Split> {
+    if poles[m].held {
+        return None;
+    }
+    let window = Window::new(problem.data(), poles, fit, m)?;
+    let here = Problem::new(&window.data);
+    let energy = here.energy();
+    let one = here.refine(window.near.clone(), ONE_STEPS);
+    if one.cost < ROUND_OFF * energy {
+        return None;
+    }
+    let two = window.two(&here, &one)?;
+    let (a, b) = (two.poles.len() - 2, two.poles.len() - 1);
+    let pair = [two.poles[a].clone(), two.poles[b].clone()];
+    let gain = one.cost - two.cost;
+    let significance = gain / window.unknowns_of_a_mode() / two.residual_variance().max(f64::MIN_POSITIVE);
+    if !window.valid(&pair, &poles[m], settings) || significance < MIN_SIGNIFICANCE {
+        return None;
+    }
+    if two.cost < EXACT * energy {
+        return Some(Split::Two(pair));
+    }
+    let unexplained = (two.cost - noise(&two, window.data.lines())).max(0.0);
+    let alike = shape_mac(&here, &two, a, b);
+    if alike > DIFFERENT_SHAPES || gain < MIN_EXPLAINED * unexplained || gain < MIN_SHARE * energy {
+        return None;
+    }
+    let certain = one.cost > LARGE_REDUCTION * two.cost && alike < UNLIKE_SHAPES;
+    Some(if certain { Split::Two(pair) } else { Split::Maybe(pair) })
+}
+
+/// Energy of the noise in the residuals, by third differences from line to line, as in `data::noise_rms`; their mean, not the
+/// median, contains the noise of the force, which is strongest at the resonance.
+fn noise(at: &FitPoint, lines: usize) -> f64 {
+    let third = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).powi(2) / 20.0;
+    let of = |part: &[f64]| part.windows(4).map(third).sum::<f64>() * lines as f64 / (lines - 3) as f64;
+    at.residual.as_slice().chunks(lines).map(of).sum()
+}
+
+/// The FRFs around a mode, less the modes outside.
+struct Window {
+    data: Data,
+    /// Modes inside, with the place of the mode itself.
+    near: Vec<Pole>,
+    own: usize,
+}
+
+impl Window {
+    /// `None` if there are too few lines for another mode.
+    fn new(data: &Data, poles: &[Pole], fit: &Fit, m: usize) -> Option<Self> {
+        let hz = poles[m].value.im / TAU;
+        let half = (WINDOW * 2.0 * poles[m].value.re.abs() / TAU).max(MIN_LINES * data.step);
+        let line =
+            |hz: f64| ((hz - data.frequencies[0]) / data.step).round().clamp(0.0, (data.lines() - 1) as f64);
+        let (first, last) = (line(hz - half) as usize, line(hz + half) as usize);
+        let band = [data.frequencies[first], data.frequencies[last]];
+        let (near, far): (Vec<usize>, Vec<usize>) =
+            (0..poles.len()).partition(|&k| is_inside(&poles[k], band));
+        let s = data.s();
+        let others = |o: usize, i: usize, k: usize| -> Complex64 {
+            let of = |&r: &usize| {
+                let (value, residue) = (poles[r].value, fit.shapes[r][o] * poles[r].participation[i]);
+                residue / (s[k] - value) + residue.conj() / (s[k] - value.conj())
+            };
+            far.iter().map(of).sum::<Complex64>() * s[k].powi(data.power)
+        };
+        let own = near.iter().position(|&k| k == m)?;
+        let near = near.iter().map(|&k| poles[k].clone()).collect();
+        let window = Self { data: projected(data.window(first..=last, others)), near, own };
+        let frfs = window.data.outputs() * window.data.inputs();
+        let unknowns = (window.near.len() + 1) as f64 * window.unknowns_of_a_mode() + 2.0 * frfs as f64;
+        ((window.data.lines() * frfs) as f64 >= unknowns).then_some(window)
+    }
+
+    fn unknowns_of_a_mode(&self) -> f64 {
+        (2 * self.data.outputs() + 2 * self.data.inputs()) as f64
+    }
+
+    /// The best fit with two poles, which come last, instead of the mode's one.
+    fn two(&self, here: &Problem, one: &FitPoint) -> Option<FitPoint> {
+        let values: Vec<Complex64> = one.poles.iter().map(|p| p.value).collect();
+        let residues = free_residues(&self.data, &values);
+        let fits =
+            start_pairs(&one.poles[self.own], directions(&residues[self.own])).into_iter().map(|pair| {
+                let mut poles = one.poles.clone();
+                poles.remove(self.own);
+                poles.extend(pair);
+                here.refine(poles, TWO_STEPS)
+            });
+        fits.min_by(|a, b| a.cost.total_cmp(&b.cost))
+    }
+
+    /// Whether two poles are two close modes at the place of one.
+    fn valid(&self, pair: &[Pole; 2], one: &Pole, settings: &Settings) -> bool {
+        let band = [self.data.frequencies[0], self.data.frequencies[self.data.lines() - 1]];
+        let decay = pair[0].value.re.abs().max(pair[1].value.re.abs());
+        let damped = |p: &Pole| {
+            let zeta = -p.value.re / p.value.norm();
+            zeta > 0.0 && zeta <= settings.largest_damping
+        };
+        pair.iter().all(|p| is_inside(p, band) && damped(p))
+            && (pair[0].value - pair[1].value).norm() < FARTHEST * decay
+            && decay < FARTHEST * one.value.re.abs()
+    }
+}
+
+fn is_inside(pole: &Pole, band: [f64; 2]) -> bool {
+    let hz = pole.value.im / TAU;
+    hz >= band[0] && hz <= band[1]
+}
+
+/// FRFs on the principal directions of the outputs; lengths and angles of shapes are preserved.
+fn projected(data: Data) -> Data {
+    let outputs = data.outputs();
+    if outputs <= DIRECTIONS {
+        return data;
+    }
+    let (lines, inputs) = (data.lines(), data.inputs());
+    let flat = DMatrix::from_fn(2 * inputs * lines, outputs, |row, o| {
+        let h = data.values[o][row / (2 * lines)][row / 2 % lines];
+        if row % 2 == 0 { h.re } else { h.im }
+    });
+    let eigen = flat.tr_mul(&flat).symmetric_eigen();
+    let mut order: Vec<usize> = (0..outputs).collect();
+    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    let along = |place: &usize| -> Vec<Vec<Complex64>> {
+        let direction = eigen.eigenvectors.column(*place);
+        let sum = |i: usize, k: usize| -> Complex64 {
+            data.values.iter().zip(direction.iter()).map(|(row, weight)| row[i][k] * *weight).sum()
+        };
+        (0..inputs).map(|i| (0..lines).map(|k| sum(i, k)).collect()).collect()
+    };
+    let values = order.iter().take(DIRECTIONS).map(along).collect();
+    Data { values, output_scale: vec![1.0; DIRECTIONS], ..data }
+}
+
+/// Start values of a pair around one pole: apart in frequency, with participations on both sides of the first
+/// principal direction of its residues.
+fn start_pairs(pole: &Pole, (directions, sizes): (Vec<Vec<Complex64>>, Vec<f64>)) -> Vec<[Pole; 2]> {
+    let mut out = Vec::new();
+    let decay = pole.value.re.abs();
+    let turned = |sign: f64| -> Vec<Complex64> {
+        match (&directions[..], &sizes[..]) {
+            ([first, second, ..], [large, small, ..]) if *large > 0.0 => {
+                let share = sign * (small / large).max(1e-3);
+                normalise_largest(first.iter().zip(second).map(|(a, b)| a + b * share).collect())
+            }
+            _ => pole.participation.clone(),
+        }
+    };
+    let (signs, distances): (&[f64], &[f64]) =
+        if directions.len() > 1 { (&[1.0, -1.0], &START_DISTANCES[1..]) } else { (&[1.0], &START_DISTANCES) };
+    for distance in distances {
+        for sign in signs {
+            let offset = Complex64::new(0.0, 0.5 * distance * decay);
+            out.push([
+                Pole::new(pole.value + offset, turned(*sign)),
+                Pole::new(pole.value - offset, turned(-sign)),
+            ]);
+        }
+    }
+    out
+}
+
+/// MAC of two shapes as measured or as scaled for the fit, the larger.
+fn shape_mac(problem: &Problem, at: &FitPoint, a: usize, b: usize) -> f64 {
+    let scale = &problem.data().output_scale;
+    let fitted = |m: usize| (0..scale.len()).map(|o| at.shape(m, o)).collect::<Vec<_>>();
+    let measured = |m: usize| (0..scale.len()).map(|o| at.shape(m, o) * scale[o]).collect::<Vec<_>>();
+    mac(&fitted(a), &fitted(b)).max(mac(&measured(a), &measured(b)))
+}
+
+/// Whether two close modes differ in shape and in participation.
+fn different(shapes: f64, a: &Pole, b: &Pole) -> bool {
+    shapes < DIFFERENT_SHAPES
+        && a.participation.len() > 1
+        && mac(&a.participation, &b.participation) < DIFFERENT_PARTICIPATIONS
+}
+
+/// Whether a fit leaves nothing to explain.
+pub(super) fn is_exact(problem: &Problem, at: &FitPoint) -> bool {
+    at.cost < EXACT * problem.energy()
+}
+
+/// Modes that may be one with a close neighbour, and the neighbour.
+pub(super) fn indistinct(problem: &Problem, at: &FitPoint) -> Vec<(usize, usize)> {
+    if is_exact(problem, at) {
+        return Vec::new();
+    }
+    let distance = |a: usize, b: usize| (at.poles[a].value - at.poles[b].value).norm();
+    let alike = |a: usize, b: usize| {
+        let (first, second) = (&at.poles[a], &at.poles[b]);
+        let close = distance(a, b) < CLOSE * first.value.re.abs().max(second.value.re.abs());
+        close && !different(shape_mac(problem, at, a, b), first, second)
+    };
+    let count = at.poles.len();
+    let neighbour = |a: usize| {
+        let alike = (0..count).filter(|&b| a != b && alike(a, b));
+        Some((a, alike.min_by(|b, c| distance(a, *b).total_cmp(&distance(a, *c)))?))
+    };
+    (0..count).filter_map(neighbour).collect()
+}
