@@ -133,6 +133,11 @@ impl Data {
         (0..self.outputs()).map(|o| (0..self.inputs()).map(|i| size(o, i)).collect()).collect()
     }
 
+    /// First and last frequency \[Hz\].
+    pub fn band(&self) -> [f64; 2] {
+        [self.frequencies[0], self.frequencies[self.lines() - 1]]
+    }
+
     /// Highest model order: as set, else 60 or the maximum for the number of lines.
     pub fn max_order(&self, settings: &Settings) -> usize {
         settings.max_order.unwrap_or(60.min(highest_order(self.lines())))

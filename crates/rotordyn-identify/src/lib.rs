@@ -36,6 +36,7 @@ mod plscf;
 mod pole_selection;
 mod refine;
 mod result;
+mod reweight;
 pub mod sdof;
 mod settings;
 mod stabilisation;

@@ -31,6 +31,25 @@ pub(super) struct Fit {
     pub lower: Vec<Vec<f64>>,
 }
 
+impl Fit {
+    /// FRFs of the modal model in the data's scales, `[output][input][line]`.
+    pub fn synthesise(&self, data: &Data, poles: &[Pole]) -> Vec<Vec<Vec<Complex64>>> {
+        let s = data.s();
+        let one = |o: usize, i: usize| {
+            let value = |s: &Complex64| {
+                let mut sum = self.upper[o][i] + self.lower[o][i] / (s * s);
+                for (pole, shape) in poles.iter().zip(&self.shapes) {
+                    let residue = shape[o] * pole.participation[i];
+                    sum += residue / (s - pole.value) + residue.conj() / (s - pole.value.conj());
+                }
+                sum * s.powi(data.power)
+            };
+            s.iter().map(value).collect()
+        };
+        (0..data.outputs()).map(|o| (0..data.inputs()).map(|i| one(o, i)).collect()).collect()
+    }
+}
+
 impl Basis {
     pub fn new(data: &Data) -> Self {
         let s = data.s();

@@ -6,13 +6,15 @@
 
 use std::f64::consts::TAU;
 
-use super::data::{Data, noise_rms, rms};
-use super::lsfd::Fit;
+use super::data::Data;
+use super::lsfd::{Fit, free_residues};
 use super::mac::mac;
 use super::misfit::{outputs_differ, with_model_error};
 use super::pairs::{self, Split};
 use super::plscf::{Pole, StablePole, normalise_largest};
+use super::pole_selection::directions;
 use super::refine::{FitPoint, Problem, significance};
+use super::reweight::reweight;
 use super::uncertainty::{PoleCovariance, covariance, standard_errors, white_noise_covariance};
 use super::{DroppedPole, QualityWarning, Settings};
 use rotordyn_linalg::Complex64;
@@ -29,6 +31,9 @@ pub(super) struct SelectedModes {
 /// Refinement steps while poles may still be dropped, and at the end.
 const TRIAL_STEPS: usize = 4;
 const FINAL_STEPS: usize = 40;
+/// Steps with a mode outside the band, and where it starts: from the end of the band, over the median decay rate.
+const OUTSIDE_STEPS: usize = 20;
+const OUTSIDE_DISTANCES: [f64; 2] = [0.5, 3.0];
 /// Relative change of frequency from which a stable pole counts as drifted away.
 const MAX_FREQUENCY_DRIFT: f64 = 0.01;
 /// Growth of the damping ratio from which it counts as drifted, and the damping ratio below which it does not.
@@ -36,6 +41,8 @@ const MAX_DAMPING_GROWTH: f64 = 3.0;
 const MIN_BROAD_DAMPING: f64 = 0.03;
 /// Support of a pole (mean similarity over the orders) from which it is held where it was stable.
 const MIN_HELD_SUPPORT: f64 = 0.3;
+/// Squared residuals near a held pole without it, over those with it, from which it is a mode.
+const MIN_HELD_GAIN: f64 = 1.5;
 /// Minimum significance F of a mode; the largest of many noise poles stays below it.
 const MIN_SIGNIFICANCE: f64 = 10.0;
 /// Maximum relative standard errors of a mode: of the frequency and of the damping ratio.
@@ -57,6 +64,7 @@ pub(super) fn select_modes(
     poles.iter_mut().for_each(|pole| pole.held = false);
     let problem = Problem::new(data);
     let pruned = prune_poles(&problem, poles, settings, dropped)?;
+    let pruned = with_modes_outside(&problem, pruned, settings);
     let settled = settle(&problem, pruned, settings, dropped)?;
     let splits = pairs::splits(&problem, &settled.at, settings);
     let (settled, mut maybe_two) = with_pairs(&problem, settled, splits, settings, dropped)?;
@@ -147,6 +155,7 @@ fn settle(
     settings: &Settings,
     dropped: &mut Vec<DroppedPole>,
 ) -> Option<RefinedModes> {
+    let band = problem.data().band();
     let mut at = problem.refine(poles, FINAL_STEPS);
     let mut duplicates = Vec::new();
     loop {
@@ -157,14 +166,29 @@ fn settle(
             duplicates.extend(fault.duplicate);
             at = problem.refine(fault.left, FINAL_STEPS);
         }
+        // A held pole that explains little is no mode: the orders share it for another reason.
+        let idle =
+            (0..at.poles.len()).find(|&m| at.poles[m].held && problem.local_gain(&at, m) < MIN_HELD_GAIN);
+        if let Some(idle) = idle {
+            let reason = "stable, but explains little of the FRFs".into();
+            dropped.push(DroppedPole { value: at.poles[idle].value, reason });
+            let mut poles = at.poles;
+            poles.remove(idle);
+            if poles.is_empty() {
+                return None;
+            }
+            at = problem.refine(poles, FINAL_STEPS);
+            continue;
+        }
         let noise = covariance(problem.data(), &at, &problem.step(&at));
         let covariance = with_model_error(problem, &at, &noise);
         let significance = significance(&at);
         // The jackknife covariance exposes poles that fit the noise of a few lines; the error of the model, poles that fit the
         // misfit of a stronger mode.
         let fault = |m: usize| {
-            let of =
-                |covariance: PoleCovariance| significance_fault(&at.poles[m], covariance, significance[m]);
+            let of = |covariance: PoleCovariance| {
+                significance_fault(&at.poles[m], covariance, significance[m], band)
+            };
             let near = stronger_neighbours(&at, m, &significance).next();
             of(noise[m]).or_else(|| near.and_then(|_| of(covariance[m])))
         };
@@ -201,6 +225,41 @@ fn prune_poles(
     }
 }
 
+/// Poles with a mode outside each end of the band that explains the FRFs there; the stabilisation diagram has none outside.
+fn with_modes_outside(problem: &Problem, mut poles: Vec<Pole>, settings: &Settings) -> Vec<Pole> {
+    let band = problem.data().band();
+    let mut decays: Vec<f64> = poles.iter().map(|pole| pole.value.re.abs()).collect();
+    decays.sort_by(f64::total_cmp);
+    let decay = decays[decays.len() / 2];
+    for (end, side) in [(band[0], -1.0), (band[1], 1.0)] {
+        let outside = |pole: &Pole| (pole.value.im / TAU - end) * side > 0.0;
+        if poles.iter().any(outside) {
+            continue;
+        }
+        let trial = |distance: f64| {
+            let value = Complex64::new(-decay, TAU * end + side * distance * decay);
+            let values: Vec<Complex64> = poles.iter().map(|pole| pole.value).chain([value]).collect();
+            let residues = free_residues(problem.data(), &values);
+            let participation = directions(residues.last()?).0.into_iter().next()?;
+            let mut poles = poles.clone();
+            poles.push(Pole::new(value, normalise_largest(participation)));
+            let at = problem.refine(poles, OUTSIDE_STEPS);
+            let own = at.poles.last()?;
+            let zeta = damping_ratio(own.value);
+            let valid = outside(own)
+                && reaches_into(own.value, band)
+                && (0.0..=settings.largest_damping).contains(&zeta)
+                && problem.local_gain(&at, at.poles.len() - 1) > MIN_HELD_GAIN;
+            valid.then_some(at)
+        };
+        let best = OUTSIDE_DISTANCES.into_iter().filter_map(trial).min_by(|a, b| a.cost.total_cmp(&b.cost));
+        if let Some(best) = best {
+            poles = best.poles;
+        }
+    }
+    poles
+}
+
 /// Poles without a faulty one.
 struct Fault {
     left: Vec<Pole>,
@@ -217,7 +276,7 @@ fn remove_faulty_poles(
     settings: &Settings,
     dropped: &mut Vec<DroppedPole>,
 ) -> Option<Fault> {
-    let band = [problem.data().frequencies[0], problem.data().frequencies[problem.data().lines() - 1]];
+    let band = problem.data().band();
     let count = at.poles.len();
     let off: Vec<Option<DroppedPole>> =
         (0..count).map(|m| drift_fault(&at.poles[m], started.map(|s| s[m].value), band, settings)).collect();
@@ -241,8 +300,8 @@ fn remove_faulty_poles(
     let significance = significance(at);
     let covariance = white_noise_covariance(at, &problem.step(at));
     let fault_of = |m: usize| {
-        let weak =
-            significance_fault(&at.poles[m], covariance[m], significance[m]).map(|fault| (fault, false));
+        let weak = significance_fault(&at.poles[m], covariance[m], significance[m], band)
+            .map(|fault| (fault, false));
         weak.or_else(|| Some((duplicate_fault(problem.data(), at, m, &significance)?, true)))
     };
     let worst = (0..count)
@@ -257,6 +316,16 @@ fn remove_faulty_poles(
 
 fn damping_ratio(pole: Complex64) -> f64 {
     -pole.re / pole.norm()
+}
+
+fn is_inside(pole: Complex64, band: [f64; 2]) -> bool {
+    (band[0]..=band[1]).contains(&(pole.im / TAU))
+}
+
+/// Whether a mode is within its half-power bandwidth of the band, so that it acts there.
+fn reaches_into(pole: Complex64, band: [f64; 2]) -> bool {
+    let (hz, bandwidth) = (pole.im / TAU, 2.0 * pole.re.abs() / TAU);
+    hz + bandwidth >= band[0] && hz - bandwidth <= band[1]
 }
 
 fn drift_fault(
@@ -274,11 +343,15 @@ fn drift_fault(
     if zeta.is_nan() || zeta <= 0.0 {
         return fault("not positively damped when fitted to the FRFs".into());
     }
-    if hz < band[0] || hz > band[1] {
+    if !reaches_into(value, band) {
         return fault("outside the band when fitted to the FRFs".into());
     }
     if zeta > settings.largest_damping {
         return fault("damping above the limit when fitted to the FRFs".into());
+    }
+    if !is_inside(value, band) {
+        // The stabilisation diagram has no pole there that it could have drifted from.
+        return None;
     }
     let moved = match (started, &pole.stable) {
         (Some(first), _) if (value.im / first.im - 1.0).abs() > MAX_FREQUENCY_DRIFT => true,
@@ -296,15 +369,21 @@ fn has_drifted(value: Complex64, stable: &StablePole) -> bool {
     (value.im - first.im).abs() > far || broad
 }
 
-fn significance_fault(pole: &Pole, covariance: PoleCovariance, significance: f64) -> Option<DroppedPole> {
+fn significance_fault(
+    pole: &Pole,
+    covariance: PoleCovariance,
+    significance: f64,
+    band: [f64; 2],
+) -> Option<DroppedPole> {
     let (frequency, damping) = standard_errors(pole.value, covariance);
     let zeta = damping_ratio(pole.value);
     let fault = |reason: String| Some(DroppedPole { value: pole.value, reason });
     if significance < MIN_SIGNIFICANCE {
         return fault(format!("not significant against noise (F = {significance:.1})"));
     }
-    let uncertain =
-        frequency > MAX_FREQUENCY_ERROR * pole.value.im / TAU || damping > MAX_DAMPING_ERROR * zeta;
+    // A mode outside is no result: it takes up what it does in the band.
+    let uncertain = is_inside(pole.value, band)
+        && (frequency > MAX_FREQUENCY_ERROR * pole.value.im / TAU || damping > MAX_DAMPING_ERROR * zeta);
     if uncertain {
         fault(format!("standard error too large ({frequency:.2e} Hz, damping {:.2e} %)", 100.0 * damping))
     } else {
@@ -349,61 +428,4 @@ fn stronger_neighbours<'a>(
         let near = (own - other).norm() < MAX_DUPLICATE_DISTANCE * own.re.abs().max(other.re.abs());
         k != m && significance[k] > significance[m] && near
     })
-}
-
-/// Reweights every FRF by its noise and by the misfit of a fit; returns its poles in the new scales.
-///
-/// The misfit, over the size of an FRF, is the median of all: weights by each FRF's own would follow the few
-/// FRFs that the model happens to fit.
-fn reweight(data: &mut Data, found: FitPoint) -> Vec<Pole> {
-    let fit = Problem::new(data).fit(&found);
-    let model = synthesise(data, &found.poles, &fit);
-    let left = |frf: &[Complex64], model: &[Complex64]| {
-        let sum: f64 = frf.iter().zip(model).map(|(h, m)| (h - m).norm_sqr()).sum();
-        sum / frf.len() as f64
-    };
-    let all = || data.values.iter().flatten();
-    let noise: Vec<f64> = all().map(|frf| noise_rms(frf).powi(2)).collect();
-    let square: Vec<f64> = all().map(|frf| rms(frf).powi(2)).collect();
-    let rest: Vec<f64> = all().zip(model.iter().flatten()).map(|(frf, model)| left(frf, model)).collect();
-    let mut misfits: Vec<f64> = rest
-        .iter()
-        .zip(&noise)
-        .zip(&square)
-        .filter(|(_, size)| **size > 0.0)
-        .map(|((rest, noise), size)| (rest - noise).max(0.0) / size)
-        .collect();
-    misfits.sort_by(f64::total_cmp);
-    let misfit = misfits.get(misfits.len() / 2).copied().unwrap_or(0.0);
-    let inputs = data.inputs();
-    let size = |k: usize| (noise[k] + misfit * square[k]).sqrt();
-    let mut sizes: Vec<Vec<f64>> =
-        (0..data.outputs()).map(|o| (0..inputs).map(|i| size(o * inputs + i)).collect()).collect();
-    // Lower limit of the scale: a thousandth of the largest residual.
-    let floor = 1e-3 * sizes.iter().flatten().copied().fold(0.0, f64::max);
-    sizes.iter_mut().flatten().for_each(|size| *size = size.max(floor));
-    let b = data.rescale(&sizes);
-    let mut poles = found.poles;
-    for pole in &mut poles {
-        pole.participation.iter_mut().zip(&b).for_each(|(l, b)| *l /= b);
-        pole.participation = normalise_largest(std::mem::take(&mut pole.participation));
-    }
-    poles
-}
-
-/// FRFs of the modal model in the data's scales, `[output][input][line]`.
-pub(super) fn synthesise(data: &Data, poles: &[Pole], fit: &Fit) -> Vec<Vec<Vec<Complex64>>> {
-    let s = data.s();
-    let one = |o: usize, i: usize| {
-        let value = |s: &Complex64| {
-            let mut sum = fit.upper[o][i] + fit.lower[o][i] / (s * s);
-            for (pole, shape) in poles.iter().zip(&fit.shapes) {
-                let residue = shape[o] * pole.participation[i];
-                sum += residue / (s - pole.value) + residue.conj() / (s - pole.value.conj());
-            }
-            sum * s.powi(data.power)
-        };
-        s.iter().map(value).collect()
-    };
-    (0..data.outputs()).map(|o| (0..data.inputs()).map(|i| one(o, i)).collect()).collect()
 }

@@ -1,7 +1,9 @@
 //! Identification of one band: poles, selection, refinement, and their result in the units of the FRFs.
 
+use std::f64::consts::TAU;
+
 use super::data::Data;
-use super::mode_selection::{SelectedModes, select_modes, synthesise};
+use super::mode_selection::{SelectedModes, select_modes};
 use super::plscf::{NormalEquations, Pole, normalise_largest};
 use super::result::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning};
 use super::{IdentifyError, Settings, lsfd, mac, pole_selection, stabilisation, uncertainty, whirl};
@@ -32,8 +34,8 @@ pub(super) fn identify_band(
     let selected =
         if poles.is_empty() { None } else { select_modes(&mut data, poles, settings, &mut dropped) };
     let found = selected.ok_or(IdentifyError::NoMode {
-        from: data.frequencies[0],
-        to: data.frequencies[data.lines() - 1],
+        from: data.band()[0],
+        to: data.band()[1],
         poles: candidates.len(),
         orders: orders.len(),
     })?;
@@ -53,9 +55,9 @@ fn assemble_result(
     found: SelectedModes,
     diagram: Vec<DiagramPole>,
     orders: Vec<usize>,
-    dropped: Vec<DroppedPole>,
+    mut dropped: Vec<DroppedPole>,
 ) -> ModalIdentification {
-    let model = synthesise(data, &found.poles, &found.fit);
+    let model = found.fit.synthesise(data, &found.poles);
     let scale = |o: usize, i: usize| data.output_scale[o] * data.input_scale[i];
     let (responses, references) = (frfs.responses.len(), frfs.references.len());
     let place = |r: usize, e: usize| if data.swapped { (e, r) } else { (r, e) };
@@ -124,6 +126,16 @@ fn assemble_result(
             }
         })
         .collect();
+    let [first, last] = data.band();
+    modes.retain(|mode| {
+        let hz = mode.pole.im / TAU;
+        let inside = (first..=last).contains(&hz);
+        if !inside {
+            let reason = "outside the band; part of the fit".into();
+            dropped.push(DroppedPole { value: mode.pole, reason });
+        }
+        inside
+    });
     modes.sort_by(|a, b| a.pole.im.total_cmp(&b.pole.im));
     ModalIdentification {
         modes,
@@ -140,6 +152,6 @@ fn assemble_result(
         diagram,
         orders,
         dropped,
-        bands: vec![[data.frequencies[0], data.frequencies[data.lines() - 1]]],
+        bands: vec![data.band()],
     }
 }

@@ -4,6 +4,8 @@
 //! Kaufman's approximation); the matrix is the same for all outputs, so an iteration costs about as much as
 //! one LSFD.
 
+use std::f64::consts::TAU;
+
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::data::Data;
@@ -139,6 +141,9 @@ const CONVERGENCE_TOLERANCE: f64 = 1e-4;
 /// Round-off level of the cost over the FRFs' sum of squares.
 const ROUND_OFF: f64 = 1e-28;
 
+/// Least half width, in lines, of what is near a mode.
+const MIN_LINES: f64 = 3.0;
+
 /// Fit problem: FRFs with basis functions and right-hand side.
 pub(super) struct Problem<'a> {
     data: &'a Data,
@@ -197,6 +202,28 @@ impl<'a> Problem<'a> {
         }
         let poles = std::mem::take(&mut at.poles);
         FitPoint::new(&self.basis, &self.y, poles)
+    }
+
+    /// Squared residuals near a mode, within its half-power bandwidth on either side, over those with it, if it is left out and
+    /// the other poles stay.
+    pub fn local_gain(&self, at: &FitPoint, mode: usize) -> f64 {
+        let mut poles = at.poles.clone();
+        let own = poles.remove(mode).value;
+        let without = FitPoint::new(&self.basis, &self.y, poles);
+        let lines = self.data.lines();
+        let near = |line: usize| {
+            (TAU * self.data.frequencies[line] - own.im).abs()
+                <= (2.0 * own.re.abs()).max(MIN_LINES * TAU * self.data.step)
+        };
+        let sum = |residual: &DMatrix<f64>| -> f64 {
+            let column = |o: usize| residual.column(o).into_iter().enumerate();
+            (0..residual.ncols())
+                .flat_map(column)
+                .filter(|(row, _)| near(row % lines))
+                .map(|(_, e)| e * e)
+                .sum()
+        };
+        sum(&without.residual) / sum(&at.residual).max(f64::MIN_POSITIVE)
     }
 
     pub fn step(&self, at: &FitPoint) -> GaussNewtonStep {

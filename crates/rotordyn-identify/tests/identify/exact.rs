@@ -46,6 +46,28 @@ fn band_far_from_zero_frequency() {
     check(&known, 2, [980.0, 1120.0], 0.1);
 }
 
+/// A mode just outside the band is part of the fit and no result: those in the band are exact, where residual terms alone
+/// would leave an error of a per cent in the damping of the last.
+#[test]
+fn a_mode_outside_the_band() {
+    for (band, inside) in [([2.0, 128.5], 0..3), ([44.2, 180.0], 2..4)] {
+        let known = beam();
+        let made = frfs(&known, &lines(band[0], band[1], 0.1), 2);
+        let found = identify(&made, &Settings::default()).unwrap();
+        assert_eq!(found.modes.len(), inside.len(), "{band:?}: {:?}", found.modes);
+        for (mode, known) in found.modes.iter().zip(&known[inside]) {
+            let off = (mode.pole - known.pole).norm() / known.pole.norm();
+            println!("{band:?}: {:.3} Hz, pole {off:.1e}", mode.frequency_hz());
+            assert!(off < 1e-6, "{off:.1e}");
+        }
+        assert!(
+            found.dropped.iter().any(|pole| pole.reason.contains("part of the fit")),
+            "{:?}",
+            found.dropped
+        );
+    }
+}
+
 #[test]
 fn close_modes() {
     // A quarter of their half-power width of 1 Hz apart.

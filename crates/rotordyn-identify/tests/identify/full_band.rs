@@ -15,7 +15,7 @@ use crate::random::Random;
 /// Frequency and Mode Shape (1979), table 8-1.
 fn free_shape(n: usize, x: f64) -> f64 {
     let beta = (2 * n + 1) as f64 * FRAC_PI_2;
-    let sign = if n % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = if n.is_multiple_of(2) { 1.0 } else { -1.0 };
     (beta * x).cos() - (beta * x).sin() + (-beta * x).exp() - sign * (-beta * (1.0 - x)).exp()
 }
 
