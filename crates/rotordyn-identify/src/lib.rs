@@ -31,6 +31,7 @@ mod misfit;
 mod mode_selection;
 mod one_band;
 pub mod operational;
+mod outside;
 mod pairs;
 mod plscf;
 mod pole_selection;
@@ -42,6 +43,7 @@ mod settings;
 mod stabilisation;
 mod uncertainty;
 mod whirl;
+mod window;
 
 pub use data::quantity_of;
 pub use error::IdentifyError;

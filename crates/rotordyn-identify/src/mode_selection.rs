@@ -7,12 +7,12 @@
 use std::f64::consts::TAU;
 
 use super::data::Data;
-use super::lsfd::{Fit, free_residues};
+use super::lsfd::Fit;
 use super::mac::mac;
 use super::misfit::{outputs_differ, with_model_error};
+use super::outside::with_modes_outside;
 use super::pairs::{self, Split};
-use super::plscf::{Pole, StablePole, normalise_largest};
-use super::pole_selection::directions;
+use super::plscf::{Pole, StablePole};
 use super::refine::{FitPoint, Problem, significance};
 use super::reweight::reweight;
 use super::uncertainty::{PoleCovariance, covariance, standard_errors, white_noise_covariance};
@@ -31,9 +31,6 @@ pub(super) struct SelectedModes {
 /// Refinement steps while poles may still be dropped, and at the end.
 const TRIAL_STEPS: usize = 4;
 const FINAL_STEPS: usize = 40;
-/// Steps with a mode outside the band, and where it starts: from the end of the band, over the median decay rate.
-const OUTSIDE_STEPS: usize = 20;
-const OUTSIDE_DISTANCES: [f64; 2] = [0.5, 3.0];
 /// Relative change of frequency from which a stable pole counts as drifted away.
 const MAX_FREQUENCY_DRIFT: f64 = 0.01;
 /// Growth of the damping ratio from which it counts as drifted, and the damping ratio below which it does not.
@@ -225,41 +222,6 @@ fn prune_poles(
     }
 }
 
-/// Poles with a mode outside each end of the band that explains the FRFs there; the stabilisation diagram has none outside.
-fn with_modes_outside(problem: &Problem, mut poles: Vec<Pole>, settings: &Settings) -> Vec<Pole> {
-    let band = problem.data().band();
-    let mut decays: Vec<f64> = poles.iter().map(|pole| pole.value.re.abs()).collect();
-    decays.sort_by(f64::total_cmp);
-    let decay = decays[decays.len() / 2];
-    for (end, side) in [(band[0], -1.0), (band[1], 1.0)] {
-        let outside = |pole: &Pole| (pole.value.im / TAU - end) * side > 0.0;
-        if poles.iter().any(outside) {
-            continue;
-        }
-        let trial = |distance: f64| {
-            let value = Complex64::new(-decay, TAU * end + side * distance * decay);
-            let values: Vec<Complex64> = poles.iter().map(|pole| pole.value).chain([value]).collect();
-            let residues = free_residues(problem.data(), &values);
-            let participation = directions(residues.last()?).0.into_iter().next()?;
-            let mut poles = poles.clone();
-            poles.push(Pole::new(value, normalise_largest(participation)));
-            let at = problem.refine(poles, OUTSIDE_STEPS);
-            let own = at.poles.last()?;
-            let zeta = damping_ratio(own.value);
-            let valid = outside(own)
-                && reaches_into(own.value, band)
-                && (0.0..=settings.largest_damping).contains(&zeta)
-                && problem.local_gain(&at, at.poles.len() - 1) > MIN_HELD_GAIN;
-            valid.then_some(at)
-        };
-        let best = OUTSIDE_DISTANCES.into_iter().filter_map(trial).min_by(|a, b| a.cost.total_cmp(&b.cost));
-        if let Some(best) = best {
-            poles = best.poles;
-        }
-    }
-    poles
-}
-
 /// Poles without a faulty one.
 struct Fault {
     left: Vec<Pole>,
@@ -314,20 +276,6 @@ fn remove_faulty_poles(
     Some(Fault { left, duplicate: duplicate.then_some(removed.value) })
 }
 
-fn damping_ratio(pole: Complex64) -> f64 {
-    -pole.re / pole.norm()
-}
-
-fn is_inside(pole: Complex64, band: [f64; 2]) -> bool {
-    (band[0]..=band[1]).contains(&(pole.im / TAU))
-}
-
-/// Whether a mode is within its half-power bandwidth of the band, so that it acts there.
-fn reaches_into(pole: Complex64, band: [f64; 2]) -> bool {
-    let (hz, bandwidth) = (pole.im / TAU, 2.0 * pole.re.abs() / TAU);
-    hz + bandwidth >= band[0] && hz - bandwidth <= band[1]
-}
-
 fn drift_fault(
     pole: &Pole,
     started: Option<Complex64>,
@@ -338,18 +286,18 @@ fn drift_fault(
         return None;
     }
     let value = pole.value;
-    let (hz, zeta) = (value.im / TAU, damping_ratio(value));
+    let (hz, zeta) = (value.im / TAU, pole.damping_ratio());
     let fault = |reason: String| Some(DroppedPole { value: started.unwrap_or(value), reason });
     if zeta.is_nan() || zeta <= 0.0 {
         return fault("not positively damped when fitted to the FRFs".into());
     }
-    if !reaches_into(value, band) {
+    if !pole.reaches_into(band) {
         return fault("outside the band when fitted to the FRFs".into());
     }
     if zeta > settings.largest_damping {
         return fault("damping above the limit when fitted to the FRFs".into());
     }
-    if !is_inside(value, band) {
+    if !pole.is_inside(band) {
         // The stabilisation diagram has no pole there that it could have drifted from.
         return None;
     }
@@ -365,7 +313,8 @@ fn drift_fault(
 fn has_drifted(value: Complex64, stable: &StablePole) -> bool {
     let first = stable.value;
     let far = (MAX_FREQUENCY_DRIFT * first.im).max(first.re.abs());
-    let broad = damping_ratio(value) > (MAX_DAMPING_GROWTH * damping_ratio(first)).max(MIN_BROAD_DAMPING);
+    let ratio = |value: Complex64| -value.re / value.norm();
+    let broad = ratio(value) > (MAX_DAMPING_GROWTH * ratio(first)).max(MIN_BROAD_DAMPING);
     (value.im - first.im).abs() > far || broad
 }
 
@@ -376,13 +325,13 @@ fn significance_fault(
     band: [f64; 2],
 ) -> Option<DroppedPole> {
     let (frequency, damping) = standard_errors(pole.value, covariance);
-    let zeta = damping_ratio(pole.value);
+    let zeta = pole.damping_ratio();
     let fault = |reason: String| Some(DroppedPole { value: pole.value, reason });
     if significance < MIN_SIGNIFICANCE {
         return fault(format!("not significant against noise (F = {significance:.1})"));
     }
     // A mode outside is no result: it takes up what it does in the band.
-    let uncertain = is_inside(pole.value, band)
+    let uncertain = pole.is_inside(band)
         && (frequency > MAX_FREQUENCY_ERROR * pole.value.im / TAU || damping > MAX_DAMPING_ERROR * zeta);
     if uncertain {
         fault(format!("standard error too large ({frequency:.2e} Hz, damping {:.2e} %)", 100.0 * damping))

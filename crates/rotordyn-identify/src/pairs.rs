@@ -10,7 +10,6 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::Settings;
@@ -20,6 +19,7 @@ use super::mac::mac;
 use super::plscf::{Pole, normalise_largest};
 use super::pole_selection::directions;
 use super::refine::{FitPoint, Problem};
+use super::window::Window;
 use rotordyn_linalg::Complex64;
 
 /// What a mode is.
@@ -55,8 +55,6 @@ const ROUNDS: usize = 4;
 const ONE_STEPS: usize = 4;
 const TWO_STEPS: usize = 12;
 const TOGETHER_STEPS: usize = 40;
-/// Principal directions of the outputs that are fitted around a mode: more than the modes there.
-const DIRECTIONS: usize = 6;
 /// Distances of the two poles at the start, over their decay rate.
 const START_DISTANCES: [f64; 2] = [0.2, 0.7];
 /// Minimum F statistic of a second pole.
@@ -130,25 +128,25 @@ fn pair_of(problem: &Problem, poles: &[Pole], fit: &Fit, m: usize, settings: &Se
     if poles[m].held {
         return None;
     }
-    let window = Window::new(problem.data(), poles, fit, m)?;
-    let here = Problem::new(&window.data);
+    let around = Neighbourhood::new(problem.data(), poles, fit, m)?;
+    let here = Problem::new(&around.window.data);
     let energy = here.energy();
-    let one = here.refine(window.near.clone(), ONE_STEPS);
+    let one = here.refine(around.window.near.clone(), ONE_STEPS);
     if one.cost < ROUND_OFF * energy {
         return None;
     }
-    let two = window.two(&here, &one)?;
+    let two = around.two(&here, &one)?;
     let (a, b) = (two.poles.len() - 2, two.poles.len() - 1);
     let pair = [two.poles[a].clone(), two.poles[b].clone()];
     let gain = one.cost - two.cost;
-    let significance = gain / window.unknowns_of_a_mode() / two.residual_variance().max(f64::MIN_POSITIVE);
-    if !window.valid(&pair, &poles[m], settings) || significance < MIN_SIGNIFICANCE {
+    let significance = gain / around.unknowns_of_a_mode() / two.residual_variance().max(f64::MIN_POSITIVE);
+    if !around.valid(&pair, &poles[m], settings) || significance < MIN_SIGNIFICANCE {
         return None;
     }
     if two.cost < EXACT * energy {
         return Some(Split::Two(pair));
     }
-    let unexplained = (two.cost - noise(&two, window.data.lines())).max(0.0);
+    let unexplained = (two.cost - noise(&two, around.window.data.lines())).max(0.0);
     let alike = shape_mac(&here, &two, a, b);
     if alike > DIFFERENT_SHAPES || gain < MIN_EXPLAINED * unexplained || gain < MIN_SHARE * energy {
         return None;
@@ -165,49 +163,35 @@ fn noise(at: &FitPoint, lines: usize) -> f64 {
     at.residual.as_slice().chunks(lines).map(of).sum()
 }
 
-/// The FRFs around a mode, less the modes outside.
-struct Window {
-    data: Data,
-    /// Modes inside, with the place of the mode itself.
-    near: Vec<Pole>,
+/// The FRFs around a mode.
+struct Neighbourhood {
+    window: Window,
+    /// Place of the mode among those of the window.
     own: usize,
 }
 
-impl Window {
+impl Neighbourhood {
     /// `None` if there are too few lines for another mode.
     fn new(data: &Data, poles: &[Pole], fit: &Fit, m: usize) -> Option<Self> {
         let hz = poles[m].value.im / TAU;
         let half = (WINDOW * 2.0 * poles[m].value.re.abs() / TAU).max(MIN_LINES * data.step);
-        let line =
-            |hz: f64| ((hz - data.frequencies[0]) / data.step).round().clamp(0.0, (data.lines() - 1) as f64);
-        let (first, last) = (line(hz - half) as usize, line(hz + half) as usize);
-        let band = [data.frequencies[first], data.frequencies[last]];
-        let (near, far): (Vec<usize>, Vec<usize>) =
-            (0..poles.len()).partition(|&k| is_inside(&poles[k], band));
-        let s = data.s();
-        let others = |o: usize, i: usize, k: usize| -> Complex64 {
-            let of = |&r: &usize| {
-                let (value, residue) = (poles[r].value, fit.shapes[r][o] * poles[r].participation[i]);
-                residue / (s[k] - value) + residue.conj() / (s[k] - value.conj())
-            };
-            far.iter().map(of).sum::<Complex64>() * s[k].powi(data.power)
-        };
-        let own = near.iter().position(|&k| k == m)?;
-        let near = near.iter().map(|&k| poles[k].clone()).collect();
-        let window = Self { data: projected(data.window(first..=last, others)), near, own };
-        let frfs = window.data.outputs() * window.data.inputs();
-        let unknowns = (window.near.len() + 1) as f64 * window.unknowns_of_a_mode() + 2.0 * frfs as f64;
-        ((window.data.lines() * frfs) as f64 >= unknowns).then_some(window)
+        let window = Window::new(data, poles, fit, [hz - half, hz + half]);
+        let own = window.inside.iter().position(|&k| k == m)?;
+        let here = Self { window, own };
+        let data = &here.window.data;
+        let frfs = data.outputs() * data.inputs();
+        let unknowns = (here.window.near.len() + 1) as f64 * here.unknowns_of_a_mode() + 2.0 * frfs as f64;
+        ((data.lines() * frfs) as f64 >= unknowns).then_some(here)
     }
 
     fn unknowns_of_a_mode(&self) -> f64 {
-        (2 * self.data.outputs() + 2 * self.data.inputs()) as f64
+        (2 * self.window.data.outputs() + 2 * self.window.data.inputs()) as f64
     }
 
     /// The best fit with two poles, which come last, instead of the mode's one.
     fn two(&self, here: &Problem, one: &FitPoint) -> Option<FitPoint> {
         let values: Vec<Complex64> = one.poles.iter().map(|p| p.value).collect();
-        let residues = free_residues(&self.data, &values);
+        let residues = free_residues(&self.window.data, &values);
         let fits =
             start_pairs(&one.poles[self.own], directions(&residues[self.own])).into_iter().map(|pair| {
                 let mut poles = one.poles.clone();
@@ -220,46 +204,16 @@ impl Window {
 
     /// Whether two poles are two close modes at the place of one.
     fn valid(&self, pair: &[Pole; 2], one: &Pole, settings: &Settings) -> bool {
-        let band = [self.data.frequencies[0], self.data.frequencies[self.data.lines() - 1]];
+        let band = self.window.data.band();
         let decay = pair[0].value.re.abs().max(pair[1].value.re.abs());
         let damped = |p: &Pole| {
             let zeta = -p.value.re / p.value.norm();
             zeta > 0.0 && zeta <= settings.largest_damping
         };
-        pair.iter().all(|p| is_inside(p, band) && damped(p))
+        pair.iter().all(|p| p.is_inside(band) && damped(p))
             && (pair[0].value - pair[1].value).norm() < FARTHEST * decay
             && decay < FARTHEST * one.value.re.abs()
     }
-}
-
-fn is_inside(pole: &Pole, band: [f64; 2]) -> bool {
-    let hz = pole.value.im / TAU;
-    hz >= band[0] && hz <= band[1]
-}
-
-/// FRFs on the principal directions of the outputs; lengths and angles of shapes are preserved.
-fn projected(data: Data) -> Data {
-    let outputs = data.outputs();
-    if outputs <= DIRECTIONS {
-        return data;
-    }
-    let (lines, inputs) = (data.lines(), data.inputs());
-    let flat = DMatrix::from_fn(2 * inputs * lines, outputs, |row, o| {
-        let h = data.values[o][row / (2 * lines)][row / 2 % lines];
-        if row % 2 == 0 { h.re } else { h.im }
-    });
-    let eigen = flat.tr_mul(&flat).symmetric_eigen();
-    let mut order: Vec<usize> = (0..outputs).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-    let along = |place: &usize| -> Vec<Vec<Complex64>> {
-        let direction = eigen.eigenvectors.column(*place);
-        let sum = |i: usize, k: usize| -> Complex64 {
-            data.values.iter().zip(direction.iter()).map(|(row, weight)| row[i][k] * *weight).sum()
-        };
-        (0..inputs).map(|i| (0..lines).map(|k| sum(i, k)).collect()).collect()
-    };
-    let values = order.iter().take(DIRECTIONS).map(along).collect();
-    Data { values, output_scale: vec![1.0; DIRECTIONS], ..data }
 }
 
 /// Start values of a pair around one pole: apart in frequency, with participations on both sides of the first

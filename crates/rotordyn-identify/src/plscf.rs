@@ -46,6 +46,21 @@ impl Pole {
     pub fn new(value: Complex64, participation: Vec<Complex64>) -> Self {
         Self { value, participation, stable: None, held: false }
     }
+
+    pub fn damping_ratio(&self) -> f64 {
+        -self.value.re / self.value.norm()
+    }
+
+    /// Whether its frequency is in a band \[Hz\].
+    pub fn is_inside(&self, band: [f64; 2]) -> bool {
+        (band[0]..=band[1]).contains(&(self.value.im / TAU))
+    }
+
+    /// Whether it is within its half-power bandwidth of the band, so that it acts there.
+    pub fn reaches_into(&self, band: [f64; 2]) -> bool {
+        let (hz, bandwidth) = (self.value.im / TAU, 2.0 * self.value.re.abs() / TAU);
+        hz + bandwidth >= band[0] && hz - bandwidth <= band[1]
+    }
 }
 
 /// Reduced normal equations, and the mapping between z and s.

@@ -1,5 +1,7 @@
 //! Weights of the FRFs by their noise and by what a first fit leaves of them.
 
+use std::f64::consts::SQRT_2;
+
 use super::data::{Data, noise_rms, rms};
 use super::plscf::{Pole, normalise_largest};
 use super::refine::{FitPoint, Problem};
@@ -22,9 +24,9 @@ pub(super) fn reweight(data: &mut Data, found: FitPoint) -> Vec<Pole> {
     let mut misfits: Vec<f64> = frfs.iter().filter(|f| f.square > 0.0).map(|f| f.misfit).collect();
     misfits.sort_by(f64::total_cmp);
     let median = misfits.get(misfits.len() / 2).copied().unwrap_or(0.0);
-    let inputs = data.inputs();
-    let mut sizes: Vec<Vec<f64>> =
-        frfs.chunks(inputs).map(|row| row.iter().map(|frf| frf.size(median)).collect()).collect();
+    let chance = ChanceLimits::of(misfits.len());
+    let sizes = |row: &[FrfMisfit]| row.iter().map(|frf| frf.size(median, &chance)).collect();
+    let mut sizes: Vec<Vec<f64>> = frfs.chunks(data.inputs()).map(sizes).collect();
     // Lower limit of the scale: a thousandth of the largest residual.
     let floor = 1e-3 * sizes.iter().flatten().copied().fold(0.0, f64::max);
     sizes.iter_mut().flatten().for_each(|size| *size = size.max(floor));
@@ -46,10 +48,34 @@ struct FrfMisfit {
     misfit: f64,
 }
 
-/// The own misfit of an FRF over the median of all, above and below which it is no chance: the squares of Gaussian errors
-/// exceed ten times their median in 3 %, and fall below a thirtieth of it in 10 %.
-const CHANCE_ABOVE: f64 = 10.0;
-const CHANCE_BELOW: f64 = 1.0 / 30.0;
+/// Misfits over their median that are no chance: smaller and larger ones.
+///
+/// Misfits by chance are squares of Gaussian errors; of n such ones the largest and the smallest exceed these limits in about
+/// 40 %: P(z² > largest) = P(z² < smallest) = 1/(2n).
+struct ChanceLimits {
+    smallest: f64,
+    largest: f64,
+}
+
+/// Median of the square of a Gaussian of unit variance.
+const MEDIAN_SQUARE: f64 = 0.454_936;
+
+impl ChanceLimits {
+    fn of(count: usize) -> Self {
+        let share = 0.5 / count.max(1) as f64;
+        // P(|z| > limit) falls from 1 to 0: bisection.
+        let limit = |share: f64| {
+            let (mut low, mut high) = (0.0, 20.0);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if libm::erfc(middle / SQRT_2) > share { low = middle } else { high = middle }
+            }
+            low
+        };
+        let over_median = |share: f64| limit(share).powi(2) / MEDIAN_SQUARE;
+        Self { smallest: over_median(1.0 - share), largest: over_median(share) }
+    }
+}
 
 impl FrfMisfit {
     fn new(frf: &[Complex64], model: &[Complex64]) -> Self {
@@ -60,11 +86,11 @@ impl FrfMisfit {
     }
 
     /// RMS of the errors of the FRF.
-    fn size(&self, median: f64) -> f64 {
-        let misfit = if self.misfit > CHANCE_ABOVE * median {
-            self.misfit / CHANCE_ABOVE
-        } else if self.misfit < CHANCE_BELOW * median {
-            self.misfit / CHANCE_BELOW
+    fn size(&self, median: f64, chance: &ChanceLimits) -> f64 {
+        let misfit = if self.misfit > chance.largest * median {
+            self.misfit / chance.largest
+        } else if self.misfit < chance.smallest * median {
+            self.misfit / chance.smallest
         } else {
             median
         };
