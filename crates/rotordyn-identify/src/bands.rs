@@ -7,7 +7,7 @@
 
 use super::data::{Data, highest_order, noise_rms};
 use super::one_band::identify_band;
-use super::result::ModalIdentification;
+use super::result::{ModalIdentification, fit_error, total_error};
 use super::{IdentifyError, Settings};
 use rotordyn_signal::record::FrfMatrix;
 
@@ -221,18 +221,10 @@ fn joined(mut below: ModalIdentification, above: ModalIdentification) -> ModalId
 
 /// Fit errors over all bands.
 fn finish(all: &mut ModalIdentification) {
-    let mut square = 0.0;
-    for (r, row) in all.errors.iter_mut().enumerate() {
-        for (e, error) in row.iter_mut().enumerate() {
-            let (mut rest, mut size) = (0.0, 0.0);
-            for (h, m) in all.measured[r][e].iter().zip(&all.synthesised[r][e]) {
-                rest += (h - m).norm_sqr();
-                size += h.norm_sqr();
-            }
-            *error = if size > 0.0 { (rest / size).sqrt() } else { 0.0 };
-            square += *error * *error;
+    for (row, (measured, model)) in all.errors.iter_mut().zip(all.measured.iter().zip(&all.synthesised)) {
+        for (error, (measured, model)) in row.iter_mut().zip(measured.iter().zip(model)) {
+            *error = fit_error(measured, model);
         }
     }
-    let count = all.errors.iter().map(Vec::len).sum::<usize>() as f64;
-    all.total_error = (square / count).sqrt();
+    all.total_error = total_error(&all.errors);
 }

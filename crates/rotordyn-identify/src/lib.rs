@@ -8,7 +8,10 @@
 //! | `pole_selection` | automatic pole selection |
 //! | `lsfd` | residues, residual terms: least-squares frequency domain (LSFD) |
 //! | `refine`, `mode_selection` | poles by nonlinear least squares; mode selection, duplicates |
+//! | `reweight` | weights of the FRFs by noise and misfit |
+//! | `outside` | modes just outside the band, which act in it |
 //! | `pairs` | modes that two close modes fit better: found, or marked |
+//! | `window`, `principal_outputs` | FRFs in a part of the band, on few directions, for cheap fits |
 //! | `uncertainty`, `misfit` | standard errors of poles: noise (jackknife) and error of the modal model |
 //! | `one_band`, `bands` | modes of one band; a record that holds too much for one is split |
 //! | [`mac`](mod@mac) | MAC, FRAC, FDAC, phase collinearity |
@@ -26,7 +29,6 @@ mod dense;
 mod error;
 mod lsfd;
 pub mod mac;
-
 mod misfit;
 mod mode_selection;
 mod one_band;
@@ -35,6 +37,7 @@ mod outside;
 mod pairs;
 mod plscf;
 mod pole_selection;
+mod principal_outputs;
 mod refine;
 mod result;
 mod reweight;

@@ -12,8 +12,8 @@ use super::mac::mac;
 use super::misfit::{outputs_differ, with_model_error};
 use super::outside::with_modes_outside;
 use super::pairs::{self, Split};
-use super::plscf::{Pole, StablePole};
-use super::refine::{FitPoint, Problem, significance};
+use super::plscf::{Pole, StablePole, damping_ratio};
+use super::refine::{FitPoint, MIN_LOCAL_GAIN, Problem, significance};
 use super::reweight::reweight;
 use super::uncertainty::{PoleCovariance, covariance, standard_errors, white_noise_covariance};
 use super::{DroppedPole, QualityWarning, Settings};
@@ -38,8 +38,6 @@ const MAX_DAMPING_GROWTH: f64 = 3.0;
 const MIN_BROAD_DAMPING: f64 = 0.03;
 /// Support of a pole (mean similarity over the orders) from which it is held where it was stable.
 const MIN_HELD_SUPPORT: f64 = 0.3;
-/// Squared residuals near a held pole without it, over those with it, from which it is a mode.
-const MIN_HELD_GAIN: f64 = 1.5;
 /// Minimum significance F of a mode; the largest of many noise poles stays below it.
 const MIN_SIGNIFICANCE: f64 = 10.0;
 /// Maximum relative standard errors of a mode: of the frequency and of the damping ratio.
@@ -165,16 +163,11 @@ fn settle(
         }
         // A held pole that explains little is no mode: the orders share it for another reason.
         let idle =
-            (0..at.poles.len()).find(|&m| at.poles[m].held && problem.local_gain(&at, m) < MIN_HELD_GAIN);
+            (0..at.poles.len()).find(|&m| at.poles[m].held && problem.local_gain(&at, m) < MIN_LOCAL_GAIN);
         if let Some(idle) = idle {
             let reason = "stable, but explains little of the FRFs".into();
             dropped.push(DroppedPole { value: at.poles[idle].value, reason });
-            let mut poles = at.poles;
-            poles.remove(idle);
-            if poles.is_empty() {
-                return None;
-            }
-            at = problem.refine(poles, FINAL_STEPS);
+            at = refined_without(problem, at, idle)?;
             continue;
         }
         let noise = covariance(problem.data(), &at, &problem.step(&at));
@@ -196,13 +189,15 @@ fn settle(
             return Some(RefinedModes { at, covariance, significance, duplicates });
         };
         dropped.extend(fault(worst));
-        let mut poles = at.poles;
-        poles.remove(worst);
-        if poles.is_empty() {
-            return None;
-        }
-        at = problem.refine(poles, FINAL_STEPS);
+        at = refined_without(problem, at, worst)?;
     }
+}
+
+/// The minimum without a pole. `None` if no pole remains.
+fn refined_without(problem: &Problem, at: FitPoint, m: usize) -> Option<FitPoint> {
+    let mut poles = at.poles;
+    poles.remove(m);
+    (!poles.is_empty()).then(|| problem.refine(poles, FINAL_STEPS))
 }
 
 /// Poles that remain valid over a few steps of refinement.
@@ -313,8 +308,7 @@ fn drift_fault(
 fn has_drifted(value: Complex64, stable: &StablePole) -> bool {
     let first = stable.value;
     let far = (MAX_FREQUENCY_DRIFT * first.im).max(first.re.abs());
-    let ratio = |value: Complex64| -value.re / value.norm();
-    let broad = ratio(value) > (MAX_DAMPING_GROWTH * ratio(first)).max(MIN_BROAD_DAMPING);
+    let broad = damping_ratio(value) > (MAX_DAMPING_GROWTH * damping_ratio(first)).max(MIN_BROAD_DAMPING);
     (value.im - first.im).abs() > far || broad
 }
 

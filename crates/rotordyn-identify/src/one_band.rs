@@ -5,7 +5,9 @@ use std::f64::consts::TAU;
 use super::data::Data;
 use super::mode_selection::{SelectedModes, select_modes};
 use super::plscf::{NormalEquations, Pole, normalise_largest};
-use super::result::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning};
+use super::result::{
+    DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning, fit_error, total_error,
+};
 use super::{IdentifyError, Settings, lsfd, mac, pole_selection, stabilisation, uncertainty, whirl};
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::Quantity;
@@ -80,16 +82,7 @@ fn assemble_result(
         };
         (0..responses).map(|r| (0..references).map(|e| one(r, e)).collect()).collect()
     };
-    let errors_of = table(&|o, i| {
-        let (mut rest, mut all) = (0.0, 0.0);
-        for (h, m) in data.values[o][i].iter().zip(&model[o][i]) {
-            rest += (h - m).norm_sqr();
-            all += h.norm_sqr();
-        }
-        if all > 0.0 { (rest / all).sqrt() } else { 0.0 }
-    });
-    let count = (responses * references) as f64;
-    let total_error = (errors_of.iter().flatten().map(|e| e * e).sum::<f64>() / count).sqrt();
+    let errors = table(&|o, i| fit_error(&data.values[o][i], &model[o][i]));
     let mut modes: Vec<Mode> = (0..found.poles.len())
         .map(|m| {
             let pole = &found.poles[m];
@@ -145,8 +138,8 @@ fn assemble_result(
         frequencies: data.frequencies.clone(),
         measured: curves(&data.values),
         synthesised: curves(&model),
-        errors: errors_of,
-        total_error,
+        total_error: total_error(&errors),
+        errors,
         upper: table(&|o, i| found.fit.upper[o][i] * scale(o, i)),
         lower: table(&|o, i| found.fit.lower[o][i] * scale(o, i)),
         diagram,

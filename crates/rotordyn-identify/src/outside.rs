@@ -6,7 +6,7 @@ use super::Settings;
 use super::lsfd::free_residues;
 use super::plscf::{Pole, normalise_largest};
 use super::pole_selection::directions;
-use super::refine::Problem;
+use super::refine::{MIN_LOCAL_GAIN, Problem};
 use super::window::Window;
 use rotordyn_linalg::Complex64;
 
@@ -16,8 +16,6 @@ const MIN_LINES: f64 = 40.0;
 /// Steps of the fit there with one more mode, and where it starts: from the end of the band, over the usual decay rate.
 const STEPS: usize = 20;
 const DISTANCES: [f64; 2] = [0.5, 3.0];
-/// Squared residuals near the mode without it, over those with it, from which it is one.
-const MIN_GAIN: f64 = 1.5;
 
 /// Poles with a mode outside each end of the band that explains the FRFs there; the stabilisation diagram has none outside.
 pub(super) fn with_modes_outside(problem: &Problem, mut poles: Vec<Pole>, settings: &Settings) -> Vec<Pole> {
@@ -34,8 +32,10 @@ pub(super) fn with_modes_outside(problem: &Problem, mut poles: Vec<Pole>, settin
         if poles.iter().any(outside) {
             continue;
         }
-        let window =
-            Window::new(data, &at.poles, &fit, [end.min(end - side * width), end.max(end - side * width)]);
+        let inner = end - side * width;
+        let Some(window) = Window::new(data, &at.poles, &fit, [end.min(inner), end.max(inner)]) else {
+            continue;
+        };
         let here = Problem::new(&window.data);
         let trial = |distance: f64| {
             let value = Complex64::new(-decay, TAU * end + side * distance * decay);
@@ -49,7 +49,7 @@ pub(super) fn with_modes_outside(problem: &Problem, mut poles: Vec<Pole>, settin
             let valid = outside(own)
                 && own.reaches_into(band)
                 && (0.0..=settings.largest_damping).contains(&own.damping_ratio())
-                && here.local_gain(&at, at.poles.len() - 1) > MIN_GAIN;
+                && here.local_gain(&at, at.poles.len() - 1) > MIN_LOCAL_GAIN;
             valid.then_some(at)
         };
         let best = DISTANCES.into_iter().filter_map(trial).min_by(|a, b| a.cost.total_cmp(&b.cost));

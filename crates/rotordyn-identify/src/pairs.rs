@@ -171,11 +171,11 @@ struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    /// `None` if there are too few lines for another mode.
+    /// `None` if there is no window, or too few lines for another mode.
     fn new(data: &Data, poles: &[Pole], fit: &Fit, m: usize) -> Option<Self> {
         let hz = poles[m].value.im / TAU;
         let half = (WINDOW * 2.0 * poles[m].value.re.abs() / TAU).max(MIN_LINES * data.step);
-        let window = Window::new(data, poles, fit, [hz - half, hz + half]);
+        let window = Window::new(data, poles, fit, [hz - half, hz + half])?;
         let own = window.inside.iter().position(|&k| k == m)?;
         let here = Self { window, own };
         let data = &here.window.data;
@@ -207,7 +207,7 @@ impl Neighbourhood {
         let band = self.window.data.band();
         let decay = pair[0].value.re.abs().max(pair[1].value.re.abs());
         let damped = |p: &Pole| {
-            let zeta = -p.value.re / p.value.norm();
+            let zeta = p.damping_ratio();
             zeta > 0.0 && zeta <= settings.largest_damping
         };
         pair.iter().all(|p| p.is_inside(band) && damped(p))

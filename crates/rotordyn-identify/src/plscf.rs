@@ -48,7 +48,7 @@ impl Pole {
     }
 
     pub fn damping_ratio(&self) -> f64 {
-        -self.value.re / self.value.norm()
+        damping_ratio(self.value)
     }
 
     /// Whether its frequency is in a band \[Hz\].
@@ -151,7 +151,7 @@ impl NormalEquations {
             inputs: ni,
             interval: 1.0 / (length as f64 * data.step),
             shift: TAU * data.step * first_line,
-            band: [data.frequencies[0], data.frequencies[lines - 1]],
+            band: data.band(),
             largest_damping: settings.largest_damping,
         })
     }
@@ -199,7 +199,7 @@ impl NormalEquations {
             let unshifted = mu.inv().ln() / self.interval;
             let value = unshifted + Complex64::new(0.0, self.shift);
             let hz = value.im / TAU;
-            let damping = -value.re / value.norm();
+            let damping = damping_ratio(value);
             let inside = hz >= self.band[0] && hz <= self.band[1];
             if unshifted.im <= 0.0 || !inside || damping <= 0.0 || damping > self.largest_damping {
                 continue;
@@ -210,6 +210,11 @@ impl NormalEquations {
         poles.sort_by(|a, b| a.value.im.total_cmp(&b.value.im));
         Ok(poles)
     }
+}
+
+/// Damping ratio ζ = −Re λ/|λ|.
+pub(super) fn damping_ratio(pole: Complex64) -> f64 {
+    -pole.re / pole.norm()
 }
 
 /// Normalises l to a largest entry of 1.

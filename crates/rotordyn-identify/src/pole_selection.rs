@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 use super::data::Data;
 use super::lsfd::free_residues;
 use super::mac::mac;
-use super::plscf::{Pole, StablePole, normalise_largest};
+use super::plscf::{Pole, StablePole, damping_ratio, normalise_largest};
 use super::stabilisation::Candidate;
 use rotordyn_linalg::Complex64;
 
@@ -186,7 +186,7 @@ fn cluster(sorted: &[&Candidate], members: &[usize], seed: usize, score: f64) ->
 fn similarity(a: &Candidate, b: &Candidate) -> f64 {
     let (va, vb) = (a.pole.value, b.pole.value);
     let apart = (va.im - vb.im) / va.im.min(vb.im) / FREQUENCY_TOLERANCE;
-    let (za, zb) = (-va.re / va.norm(), -vb.re / vb.norm());
+    let (za, zb) = (damping_ratio(va), damping_ratio(vb));
     let damped = 2.0 * (za - zb) / (za + zb) / DAMPING_TOLERANCE;
     let mut distance = apart * apart + damped * damped;
     if distance < 1.0 && !a.double && !b.double {

@@ -141,6 +141,8 @@ const CONVERGENCE_TOLERANCE: f64 = 1e-4;
 /// Round-off level of the cost over the FRFs' sum of squares.
 const ROUND_OFF: f64 = 1e-28;
 
+/// Local gain of a mode from which it is one.
+pub(super) const MIN_LOCAL_GAIN: f64 = 1.5;
 /// Least half width, in lines, of what is near a mode.
 const MIN_LINES: f64 = 3.0;
 

@@ -173,3 +173,19 @@ impl ModalIdentification {
         super::mac::mac_matrix(&shapes, &shapes)
     }
 }
+
+/// Relative fit error of an FRF: RMS of measured minus model, over that of the measured one; 0 for an FRF of zeros.
+pub(super) fn fit_error(measured: &[Complex64], model: &[Complex64]) -> f64 {
+    let (mut rest, mut all) = (0.0, 0.0);
+    for (h, m) in measured.iter().zip(model) {
+        rest += (h - m).norm_sqr();
+        all += h.norm_sqr();
+    }
+    if all > 0.0 { (rest / all).sqrt() } else { 0.0 }
+}
+
+/// RMS of the fit errors of all FRFs.
+pub(super) fn total_error(errors: &[Vec<f64>]) -> f64 {
+    let count = errors.iter().map(Vec::len).sum::<usize>() as f64;
+    (errors.iter().flatten().map(|e| e * e).sum::<f64>() / count).sqrt()
+}

@@ -1,6 +1,5 @@
 //! Stabilisation diagram: poles of every order with their shapes, and their stability from order to order.
 
-use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::data::Data;
@@ -8,8 +7,9 @@ use super::dense::solve_normal_equations;
 use super::lsfd::Basis;
 use super::mac::mac;
 use super::plscf::Pole;
+use super::principal_outputs::project_outputs;
 use super::{DiagramPole, IdentifyError, Stability};
-use rotordyn_linalg::{Complex64, eigen};
+use rotordyn_linalg::Complex64;
 
 /// A pole of one order with its shape over the outputs, or over their principal directions.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ const DOUBLE_POLE_DISTANCE: f64 = 0.3;
 /// Shapes for the poles of every order, by LSFD with all poles of that order.
 pub(super) fn candidates(data: &Data, poles: Vec<Vec<Pole>>) -> Result<Vec<Candidate>, IdentifyError> {
     let basis = Basis::new(data);
-    let y = basis.right_side(&project_outputs(data)?);
+    let y = basis.right_side(&project_outputs(data, MAX_DIRECTIONS)?);
     let of_order = |(order, poles): (usize, Vec<Pole>)| -> Vec<Candidate> {
         if poles.is_empty() {
             return Vec::new();
@@ -56,33 +56,6 @@ pub(super) fn candidates(data: &Data, poles: Vec<Vec<Pole>>) -> Result<Vec<Candi
     Ok(lists.into_iter().flatten().collect())
 }
 
-/// FRFs projected on the outputs' principal directions (PCA); lengths and angles of shapes are preserved.
-fn project_outputs(data: &Data) -> Result<Vec<Vec<Vec<Complex64>>>, IdentifyError> {
-    let outputs = data.outputs();
-    if outputs <= MAX_DIRECTIONS {
-        return Ok(data.values.clone());
-    }
-    let flat = DMatrix::from_fn(outputs, 2 * data.inputs() * data.lines(), |o, c| {
-        let (part, rest) = (c % 2, c / 2);
-        let h = data.values[o][rest / data.lines()][rest % data.lines()];
-        if part == 0 { h.re } else { h.im }
-    });
-    let (_, vectors) = eigen::symmetric(&(&flat * flat.transpose()))?;
-    let along = |d: usize| {
-        let direction = vectors.column(outputs - 1 - d);
-        (0..data.inputs())
-            .map(|i| {
-                let mut sum = vec![Complex64::default(); data.lines()];
-                for (row, weight) in data.values.iter().zip(direction.iter()) {
-                    sum.iter_mut().zip(&row[i]).for_each(|(s, h)| *s += h * *weight);
-                }
-                sum
-            })
-            .collect()
-    };
-    Ok((0..MAX_DIRECTIONS).map(along).collect())
-}
-
 /// Stabilisation diagram: each pole compared with those of the next lower order.
 pub(super) fn diagram(candidates: &[Candidate], orders: &[usize]) -> Vec<DiagramPole> {
     let describe = |c: &Candidate| {
@@ -91,10 +64,9 @@ pub(super) fn diagram(candidates: &[Candidate], orders: &[usize]) -> Vec<Diagram
             let off = |p: &Candidate| (p.pole.value - c.pole.value).norm();
             off(a).total_cmp(&off(b))
         });
-        let damping = |p: &Pole| -p.value.re / p.value.norm();
         let stability = match nearest {
             Some(b) if (b.pole.value.im / c.pole.value.im - 1.0).abs() < 0.01 => {
-                let damped = (damping(&b.pole) / damping(&c.pole) - 1.0).abs() < 0.05;
+                let damped = (b.pole.damping_ratio() / c.pole.damping_ratio() - 1.0).abs() < 0.05;
                 let shaped = b.double || c.double || mac(&b.shape, &c.shape) > 0.95;
                 match (damped, shaped) {
                     (true, true) => Stability::Stable,

@@ -1,10 +1,9 @@
 //! FRFs in a part of the band, less the modes outside it, on few directions: cheap fits of what is there.
 
-use nalgebra::DMatrix;
-
 use super::data::Data;
 use super::lsfd::Fit;
 use super::plscf::Pole;
+use super::principal_outputs::project_outputs;
 use rotordyn_linalg::Complex64;
 
 /// Principal directions of the outputs that are fitted: more than the modes in a window.
@@ -18,8 +17,8 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// The part of the band between two frequencies \[Hz\].
-    pub fn new(data: &Data, poles: &[Pole], fit: &Fit, between: [f64; 2]) -> Self {
+    /// The part of the band between two frequencies \[Hz\]; `None` if the principal directions cannot be found.
+    pub fn new(data: &Data, poles: &[Pole], fit: &Fit, between: [f64; 2]) -> Option<Self> {
         let line =
             |hz: f64| ((hz - data.frequencies[0]) / data.step).round().clamp(0.0, (data.lines() - 1) as f64);
         let [first, last] = between.map(|hz| line(hz) as usize);
@@ -35,31 +34,12 @@ impl Window {
             far.iter().map(of).sum::<Complex64>() * s[k].powi(data.power)
         };
         let near = inside.iter().map(|&k| poles[k].clone()).collect();
-        Self { data: projected(data.window(first..=last, others)), near, inside }
+        let mut data = data.window(first..=last, others);
+        data.values = project_outputs(&data, DIRECTIONS).ok()?;
+        if data.output_scale.len() > DIRECTIONS {
+            // A direction is no output: it has no scale of its own.
+            data.output_scale = vec![1.0; DIRECTIONS];
+        }
+        Some(Self { data, near, inside })
     }
-}
-
-/// FRFs on the principal directions of the outputs; lengths and angles of shapes are preserved.
-fn projected(data: Data) -> Data {
-    let outputs = data.outputs();
-    if outputs <= DIRECTIONS {
-        return data;
-    }
-    let (lines, inputs) = (data.lines(), data.inputs());
-    let flat = DMatrix::from_fn(2 * inputs * lines, outputs, |row, o| {
-        let h = data.values[o][row / (2 * lines)][row / 2 % lines];
-        if row % 2 == 0 { h.re } else { h.im }
-    });
-    let eigen = flat.tr_mul(&flat).symmetric_eigen();
-    let mut order: Vec<usize> = (0..outputs).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
-    let along = |place: &usize| -> Vec<Vec<Complex64>> {
-        let direction = eigen.eigenvectors.column(*place);
-        let sum = |i: usize, k: usize| -> Complex64 {
-            data.values.iter().zip(direction.iter()).map(|(row, weight)| row[i][k] * *weight).sum()
-        };
-        (0..inputs).map(|i| (0..lines).map(|k| sum(i, k)).collect()).collect()
-    };
-    let values = order.iter().take(DIRECTIONS).map(along).collect();
-    Data { values, output_scale: vec![1.0; DIRECTIONS], ..data }
 }
