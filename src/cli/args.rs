@@ -29,7 +29,7 @@ pub use compare::CompareArgs;
 pub use import::ImportArgs;
 pub use init::{InitArgs, STARTERS};
 use manual::{AFTER_HELP, LONG_ABOUT};
-pub use measured::{EstimatorName, IdentifyArgs, NoiseArgs, ShaftArgs};
+pub use measured::{EstimatorName, IdentifyArgs, NoiseArgs, ResidualTermsName, ShaftArgs};
 pub use rotor::{CriticalMapArgs, TorsionalArgs};
 pub use steady::{BifurcationArgs, PoincareArgs, SteadyArgs};
 pub use update::{FitResidual, MeasuredArgs, UpdateArgs, ValidateArgs};

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use rotordyn::error::Error;
 use rotordyn::identify::operational::OperationalSettings;
-use rotordyn::identify::{ModalIdentification, Settings, identify, quantity_of};
+use rotordyn::identify::{ModalIdentification, ResidualTerms, Settings, identify, quantity_of};
 use rotordyn::io::hdf5::open_reader;
 use rotordyn::io::measured::impact_run;
 use rotordyn::io::measured::mapping::{self, Mapping};
@@ -19,7 +19,7 @@ use rotordyn::units::{self, parse};
 use rotordyn::warning::Code;
 use serde_json::json;
 
-use super::args::{EstimatorName, IdentifyArgs};
+use super::args::{EstimatorName, IdentifyArgs, ResidualTermsName};
 use super::failure::Failure;
 use super::folder_lock::FolderLock;
 use super::identified_file::{Identified, Modes};
@@ -79,6 +79,9 @@ pub fn compute(
     let outcome = match read_measured(args, in_memory, &test, &mut warnings, &mut left_out) {
         Ok(Measured::Responses { path, file, orders }) => {
             spinner.finish_and_clear();
+            if args.quantity.is_some() || args.residual_terms != ResidualTermsName::Both {
+                warnings.push("--quantity and --residual-terms apply to FRFs; they are not used".into());
+            }
             left_out.into_iter().for_each(|text| terminal.warn_of(Code::LeftOut, text));
             warnings.into_iter().for_each(|warning| terminal.warn_of(Code::Identification, warning));
             let settings = OperationalSettings {
@@ -202,6 +205,12 @@ fn settings(args: &IdentifyArgs) -> Result<Settings, Failure> {
         band,
         max_order: args.max_order,
         quantity,
+        residual_terms: match args.residual_terms {
+            ResidualTermsName::Both => ResidualTerms::Both,
+            ResidualTermsName::Upper => ResidualTerms::Upper,
+            ResidualTermsName::Lower => ResidualTerms::Lower,
+            ResidualTermsName::None => ResidualTerms::None,
+        },
         added_decay: window.map_or(0.0, |tau| 1.0 / tau),
         ..Settings::default()
     })

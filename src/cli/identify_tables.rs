@@ -57,6 +57,13 @@ pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix
         100.0 * found.total_error,
         100.0 * worst
     ));
+    let (responses, references) = (found.responses.len(), found.references.len());
+    if references > responses {
+        terminal.print(&format!(
+            "  Roving hammer: {references} references, {responses} response{}; mode shapes are over the references.",
+            if responses == 1 { "" } else { "s" }
+        ));
+    }
     if found.bands.len() > 1 {
         let text: Vec<String> =
             found.bands.iter().map(|[from, to]| format!("{from:.1} .. {to:.1}")).collect();
@@ -85,7 +92,7 @@ pub fn whirl_text(whirl: Option<f64>) -> String {
 /// Stable poles that are no modes, with the reasons.
 pub fn print_rejected(terminal: &Terminal, reasons: &[String]) {
     if !reasons.is_empty() {
-        terminal.print("\n  Stable poles that were rejected:");
+        terminal.print("\n  Stable poles left out of the table:");
         reasons.iter().for_each(|reason| terminal.print(&format!("    {reason}")));
     }
 }

@@ -151,7 +151,14 @@ pub(super) fn identify_bands(
     let (mut none, mut most) = (0, 0);
     for band in bands {
         let range = |[from, to]: [usize; 2]| [whole[from], whole[to]];
-        let own = Settings { band: Some(range(band.fitted)), max_order: None, ..settings.clone() };
+        // The neighbours of an inner end hold modes, whatever lies outside the record.
+        let [upper, lower] = [band.fitted[1] < whole.len() - 1, band.fitted[0] > 0];
+        let own = Settings {
+            band: Some(range(band.fitted)),
+            max_order: None,
+            residual_terms: settings.residual_terms.with(upper, lower),
+            ..settings.clone()
+        };
         let data = Data::new(frfs, &own)?;
         let possible = highest_order(data.lines());
         let own = Settings { max_order: settings.max_order.map(|order| order.min(possible)), ..own };

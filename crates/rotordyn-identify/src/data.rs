@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{IdentifyError, Settings};
+use super::{IdentifyError, ResidualTerms, Settings};
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::Quantity;
 use rotordyn_signal::record::FrfMatrix;
@@ -25,6 +25,7 @@ pub(super) struct Data {
     pub input_scale: Vec<f64>,
     /// Whether the outputs are the references of the test.
     pub swapped: bool,
+    pub residual_terms: ResidualTerms,
 }
 
 /// Tolerated deviation from uniform spacing, over the step (rounding of printed digits).
@@ -97,6 +98,7 @@ impl Data {
             output_scale: vec![1.0; outputs],
             input_scale: vec![1.0; inputs],
             swapped,
+            residual_terms: settings.residual_terms,
         };
         data.check(frfs)?;
         data.check_dead_channels(frfs)?;

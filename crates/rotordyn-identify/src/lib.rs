@@ -51,7 +51,7 @@ mod window;
 pub use data::quantity_of;
 pub use error::IdentifyError;
 pub use result::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning, Stability};
-pub use settings::Settings;
+pub use settings::{ResidualTerms, Settings};
 
 use data::Data;
 use rotordyn_signal::record::FrfMatrix;

@@ -7,10 +7,28 @@
 
 use nalgebra::DMatrix;
 
+use super::ResidualTerms;
 use super::data::Data;
 use super::dense::{back_substitute, thin_qr, tr_mul};
 use super::plscf::Pole;
 use rotordyn_linalg::Complex64;
+
+/// Residual term of an FRF.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Residual {
+    Upper,
+    Lower,
+}
+
+impl Residual {
+    /// The term for U = 1 or V = 1 in an FRF, with the factor s^p of its quantity.
+    fn unit(self, s: Complex64, factor: Complex64) -> Complex64 {
+        match self {
+            Self::Upper => factor,
+            Self::Lower => factor / (s * s),
+        }
+    }
+}
 
 /// Basis functions of the fit. Rows: for each input the real, then the imaginary parts of all lines.
 pub(super) struct Basis {
@@ -18,6 +36,7 @@ pub(super) struct Basis {
     /// s^p.
     factor: Vec<Complex64>,
     inputs: usize,
+    residual_terms: ResidualTerms,
 }
 
 /// Result of LSFD.
@@ -54,7 +73,7 @@ impl Basis {
     pub fn new(data: &Data) -> Self {
         let s = data.s();
         let factor = s.iter().map(|s| s.powi(data.power)).collect();
-        Self { s, factor, inputs: data.inputs() }
+        Self { s, factor, inputs: data.inputs(), residual_terms: data.residual_terms }
     }
 
     pub fn rows(&self) -> usize {
@@ -82,10 +101,17 @@ impl Basis {
         }
     }
 
-    /// Design matrix: columns of Re ψ_r, Im ψ_r (mode by mode), then of U and V (input by input).
+    fn residuals(&self) -> Vec<Residual> {
+        let terms = self.residual_terms;
+        let upper = terms.has_upper().then_some(Residual::Upper);
+        upper.into_iter().chain(terms.has_lower().then_some(Residual::Lower)).collect()
+    }
+
+    /// Design matrix: columns of Re ψ_r, Im ψ_r (mode by mode), then of the residual terms (input by input).
     pub fn design(&self, poles: &[Pole]) -> DMatrix<f64> {
         let modes = poles.len();
-        let mut a = DMatrix::zeros(self.rows(), 2 * modes + 2 * self.inputs);
+        let residuals = self.residuals();
+        let mut a = DMatrix::zeros(self.rows(), 2 * modes + residuals.len() * self.inputs);
         for (r, pole) in poles.iter().enumerate() {
             for (i, l) in pole.participation.iter().enumerate() {
                 let g = |s: Complex64| [l / (s - pole.value), l.conj() / (s - pole.value.conj())];
@@ -93,12 +119,11 @@ impl Basis {
             }
         }
         let lines = self.s.len();
-        for i in 0..self.inputs {
+        let columns = (0..self.inputs).flat_map(|i| residuals.iter().map(move |residual| (i, residual)));
+        for (column, (i, residual)) in (2 * modes..).zip(columns) {
             for (k, (s, factor)) in self.s.iter().zip(&self.factor).enumerate() {
-                let (upper, lower) = (*factor, factor / (s * s));
-                let (top, column) = (2 * lines * i + k, 2 * modes + 2 * i);
-                (a[(top, column)], a[(top + lines, column)]) = (upper.re, upper.im);
-                (a[(top, column + 1)], a[(top + lines, column + 1)]) = (lower.re, lower.im);
+                let (top, value) = (2 * lines * i + k, residual.unit(*s, *factor));
+                (a[(top, column)], a[(top + lines, column)]) = (value.re, value.im);
             }
         }
         a
@@ -158,12 +183,15 @@ impl Basis {
         let outputs = x.ncols();
         let shape =
             |r: usize| (0..outputs).map(|o| Complex64::new(x[(2 * r, o)], x[(2 * r + 1, o)])).collect();
-        let term = |which: usize| {
-            (0..outputs)
-                .map(|o| (0..self.inputs).map(|i| x[(2 * modes + 2 * i + which, o)]).collect())
-                .collect()
+        let residuals = self.residuals();
+        let term = |wanted: Residual| -> Vec<Vec<f64>> {
+            let place = residuals.iter().position(|known| *known == wanted);
+            let row = |i: usize, place: usize| 2 * modes + residuals.len() * i + place;
+            let value = |i: usize, o: usize| place.map_or(0.0, |place| x[(row(i, place), o)]);
+            (0..outputs).map(|o| (0..self.inputs).map(|i| value(i, o)).collect()).collect()
         };
-        Fit { shapes: (0..modes).map(shape).collect(), upper: term(0), lower: term(1) }
+        let shapes = (0..modes).map(shape).collect();
+        Fit { shapes, upper: term(Residual::Upper), lower: term(Residual::Lower) }
     }
 }
 

@@ -45,6 +45,15 @@ pub enum EstimatorName {
     Hv,
 }
 
+/// Residual terms of the fit of FRFs.
+#[derive(clap::ValueEnum, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ResidualTermsName {
+    Both,
+    Upper,
+    Lower,
+    None,
+}
+
 /// Arguments of `identify`.
 #[derive(Args, Clone, Debug)]
 pub struct IdentifyArgs {
@@ -68,6 +77,10 @@ pub struct IdentifyArgs {
     /// receptance, mobility or accelerance, for FRFs without a unit
     #[arg(long, value_name = "NAME")]
     pub quantity: Option<String>,
+    /// What modes outside the band contribute inside it: both, upper (stiffness of the modes above), lower (mass of the
+    /// modes below, and of a free machine's rigid-body motion) or none
+    #[arg(long, value_name = "NAME", default_value = "both")]
+    pub residual_terms: ResidualTermsName,
     /// Time constant of the exponential window of the test, such as "0.5 s": applied to time records; its
     /// added damping is subtracted from every mode
     #[arg(long, alias = "window", value_name = "TIME")]

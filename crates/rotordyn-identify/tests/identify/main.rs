@@ -9,4 +9,5 @@ mod noise;
 mod pairs;
 mod random;
 mod refusals;
+mod residual_terms;
 mod single;
