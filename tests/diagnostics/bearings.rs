@@ -78,6 +78,7 @@ cases! {
     unknown_lubricant: changed("lubricant = \"oil\"\npreload", "lubricant = \"oyl\"\npreload");
     lubricant_of_no_table: refused(&GOOD.replace(OIL, ""));
     which_lubricant: refused(&GOOD.replace("lubricant = \"oil\"\n", "").replace("[shaft]", "[lubricant.grease]\nviscosity = \"0.1 Pa s\"\npressure_viscosity = \"20 1/GPa\"\n[shaft]"));
+    lubricant_of_another_unit: refused(&GOOD.replace("0.04 Pa s", "4e4 Pa s").replace("23 1/GPa", "23e-3 1/Pa"));
     lubricant_too_thin: changed("0.04 Pa s", "0.04 mPa s");
     lubricant_by_its_temperature: changed("\"0.04 Pa s\"", "\"40 degC\"");
     preload_without_counterpart: changed("thrust = \"+z\"", "thrust = \"-z\"");

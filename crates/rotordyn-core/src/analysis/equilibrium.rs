@@ -226,9 +226,12 @@ fn solve(
         reactions.iter().flat_map(|r| &r.force[..3]).fold(external, |size, force| size.max(force.abs()))
     };
 
+    let structural_force =
+        |q: &[f64]| (0..n).map(|i| (assembly.stiffness.get(i, i) * q[i]).abs()).fold(0.0, f64::max);
+
     // Round-off of the forces, also without any load: of structure and bearings at these displacements.
     let round_off = |q: &[f64], reactions: &[Reaction]| {
-        let structure = (0..n).map(|i| (assembly.stiffness.get(i, i) * q[i]).abs()).fold(0.0, f64::max);
+        let structure = structural_force(q);
         let contacts = reactions.iter().flat_map(|r| (0..3).map(|a| r.stiffness[a][a].abs()));
         ROUND_OFF * structure + RESOLUTION * contacts.fold(0.0, f64::max)
     };
@@ -246,7 +249,12 @@ fn solve(
     let mut residual = residual_of(&q, &reactions);
     let mut iterations = 0;
     let mut stalled = 0;
-    while max_abs(&residual) > TOLERANCE * size_of(&reactions) && iterations < MAX_ITERATIONS && stalled < 3 {
+    // The residual is a sum of structural forces: it falls to their last digit and no further.
+    let is_converged = |q: &[f64], reactions: &[Reaction], residual: &[f64]| {
+        let left = max_abs(residual);
+        left <= TOLERANCE * size_of(reactions) || left <= 2.0 * f64::EPSILON * structural_force(q)
+    };
+    while !is_converged(&q, &reactions, &residual) && iterations < MAX_ITERATIONS && stalled < 3 {
         iterations += 1;
         let size = size_of(&reactions);
         // (2π · 3 Hz)² at a residual of the load's size, decreasing with it: fast convergence at the end.
@@ -286,8 +294,7 @@ fn solve(
         let worst = q.iter().position(|v| v.abs() == furthest).unwrap_or(0);
         return Err(PhysicsError::Singular { motion: motion_of(assembly, worst) });
     }
-    let structure = (0..n).map(|i| (assembly.stiffness.get(i, i) * q[i]).abs()).fold(0.0, f64::max);
-    if f64::EPSILON * structure > NEGLIGIBLE * size_of(&reactions) {
+    if f64::EPSILON * structural_force(&q) > NEGLIGIBLE * size_of(&reactions) {
         let lu = factor(&reactions, LEAST_SHIFT)?;
         let error = refine(&mut q, |q| {
             let mut forces = load.clone();

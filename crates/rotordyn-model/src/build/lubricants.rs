@@ -11,6 +11,9 @@ use std::ops::Range;
 
 /// Limit viscosity η_p of the Roelands equation \[Pa s\]; the viscosity of an oil must be greater.
 const ROELANDS_VISCOSITY: f64 = 6.315e-5;
+/// Limits beyond which a value is no oil's: greases and polymers stay below, most oils by a factor of 100 and more.
+const MAX_VISCOSITY: f64 = 1e3;
+const MAX_PRESSURE_VISCOSITY: f64 = 1e-6;
 
 keys! {
     /// Tables of this file.
@@ -68,15 +71,32 @@ pub(super) fn lubricants(top: &Reader) -> Vec<Lubricant> {
                 density: r.value(&OIL.density),
             },
         };
-        if oil.viscosity <= ROELANDS_VISCOSITY && r.has_no_errors() {
-            let message = format!("{} is too low for an oil", r.name(&OIL.viscosity));
-            let problem = Problem::new(Kind::OutOfRange, &r.span_of(&OIL.viscosity), message);
-            r.log.error(problem.expected(format!("above {ROELANDS_VISCOSITY:e} Pa s (Roelands' limit)")));
+        if r.has_no_errors() {
+            check(&r, &oil);
         }
         r.finish();
         oil
     };
     top.items(&TOP.lubricant).into_iter().map(read).collect()
+}
+
+/// Refuses values that no oil has.
+fn check(r: &Reader, oil: &Lubricant) {
+    let refuse = |key: &Key<Quantity>, how: &str, expected: String| {
+        let message = format!("{} is too {how} for an oil", r.name(key));
+        r.log.error(Problem::new(Kind::OutOfRange, &r.span_of(key), message).expected(expected));
+    };
+    if oil.viscosity <= ROELANDS_VISCOSITY {
+        refuse(&OIL.viscosity, "low", format!("above {ROELANDS_VISCOSITY:e} Pa s (Roelands' limit)"));
+    }
+    if oil.viscosity > MAX_VISCOSITY {
+        refuse(&OIL.viscosity, "high", format!("up to {MAX_VISCOSITY} Pa s; an oil has 0.001 to 10 Pa s"));
+    }
+    if oil.pressure_viscosity > MAX_PRESSURE_VISCOSITY {
+        let expected =
+            format!("up to {MAX_PRESSURE_VISCOSITY:e} 1/Pa; an oil has 5e-9 to 4e-8 1/Pa (5 to 40 1/GPa)");
+        refuse(&OIL.pressure_viscosity, "high", expected);
+    }
 }
 
 /// `grade = "ISO VG 68"` at `temperature`.
