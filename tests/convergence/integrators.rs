@@ -1,5 +1,6 @@
 //! Fitted order of every time integrator on the rig's nonlinear equations.
 
+use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use crate::rig::variant;
@@ -63,6 +64,7 @@ fn fixed_step_convergence_orders() {
     let reference = end(&reduction, Integrator::RungeKutta4, 8192);
     for (integrator, expected, steps) in [
         (Integrator::Newmark, 2.0, [512, 1024, 2048, 4096]),
+        (Integrator::FittedNewmark, 2.0, [512, 1024, 2048, 4096]),
         (Integrator::GeneralisedAlpha { rho_infinity: 0.8 }, 2.0, [512, 1024, 2048, 4096]),
         (Integrator::GeneralisedAlpha { rho_infinity: 0.0 }, 2.0, [512, 1024, 2048, 4096]),
         (Integrator::RungeKutta4, 4.0, [1024, 1536, 2048, 3072]),
@@ -73,6 +75,53 @@ fn fixed_step_convergence_orders() {
         println!("{integrator:?}: errors {errors:?}, order {fitted:.2}");
         assert!((fitted - expected).abs() < 0.15, "{integrator:?}: order {fitted}");
     }
+}
+
+/// Every mode of an undamped linear machine at rest, started with a velocity v, keeps its frequency over a hundred periods of the
+/// lowest at steps up to a third of its own period: x = v/ω θ/tan θ sin(ω t) with θ = ω h/2. Newmark's is late by (ω h)²/12 of ω t.
+#[test]
+fn fitted_inertias_keep_the_exact_frequencies() {
+    let undamped = [
+        ("shaft.stiffness_damping", "0 s"),
+        ("bushing.disc_air.c_x", "0 N s/m"),
+        ("bushing.disc_air.c_y", "0 N s/m"),
+        ("bushing.disc_air.c_z", "0 N s/m"),
+        ("bushing.disc_air.c_spin", "0 N m s/rad"),
+    ];
+    let mut model = variant(Some("spherical"), &undamped);
+    model.profile = SpeedProfile::Constant { speed: 0.0, duration: 1.0 };
+    model.unbalances.clear();
+    let machine = Machine::new(model).unwrap();
+    let study = machine.model.studies.run_up.clone().unwrap();
+    let reduction = machine.reduce(&study).unwrap();
+    let system = &reduction.system;
+    assert_eq!(system.damping.amax(), 0.0);
+    let frequencies: Vec<f64> = system.natural_frequencies.iter().copied().filter(|w| *w > 0.0).collect();
+    assert!(frequencies.len() >= 6, "{frequencies:?}");
+    let highest = frequencies.iter().copied().fold(0.0, f64::max);
+    let duration = 100.0 * TAU / frequencies[0];
+    let steps = (0.5 * duration * highest).ceil();
+    let step = duration / steps;
+    let mut v = &reduction.equilibrium * 0.0;
+    frequencies.iter().enumerate().for_each(|(k, w)| v[k] = 1e-6 * w);
+    let largest_error = |integrator| {
+        let mut worst = 0.0f64;
+        let settings = Settings { integrator, step, sample_rate: 1.0 / step, duration };
+        let start = system.initial_state(reduction.equilibrium.clone(), v.clone()).unwrap();
+        let report = run(system, start, &settings, |sample| {
+            for (k, w) in frequencies.iter().enumerate() {
+                let half = 0.5 * w * step;
+                let expected = 1e-6 * half / half.tan() * (w * sample.state.time).sin();
+                worst = worst.max((sample.state.x[k] - reduction.equilibrium[k] - expected).abs());
+            }
+            ControlFlow::Continue(())
+        });
+        assert_eq!(report.end, End::Complete);
+        1e6 * worst
+    };
+    let [fitted, plain] = [Integrator::FittedNewmark, Integrator::Newmark].map(largest_error);
+    println!("{} modes, {steps} steps: error {fitted:.1e}, of Newmark {plain:.2}", frequencies.len());
+    assert!(fitted < 1e-6 && plain > 0.5, "{fitted:.1e} {plain:.1e}");
 }
 
 #[test]

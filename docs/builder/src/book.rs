@@ -3,7 +3,7 @@
 use crate::chapters::{Places, prepare, write_prepared};
 use crate::console::Console;
 use crate::reference::{self, Chapter};
-use crate::{Arguments, links, same_bytes, speed, validation};
+use crate::{Arguments, links, same_bytes, speed, step_accuracy, validation};
 use mdbook_core::config::Config;
 use mdbook_driver::MDBook;
 use serde_json::Value;
@@ -71,11 +71,19 @@ fn build_once(arguments: &Arguments) -> Result<String, String> {
     }
     let validation =
         Chapter { title: "Validation".into(), path: "validation.md".into(), text: rows.text.clone() };
-    let speed = Chapter {
+    let kept = |file: &str| fs::read_to_string(root.join("benches").join(file)).ok();
+    let mut speed = Chapter {
         title: "Speed".into(),
         path: "speed.md".into(),
-        text: speed::chapter(fs::read_to_string(root.join("benches/times.json")).ok().as_deref())?,
+        text: speed::chapter(kept("times.json").as_deref())?,
     };
+    if let Some(points) = kept("step_accuracy.json") {
+        let section = step_accuracy::section(&points)?;
+        speed.text += &section.text;
+        for (name, svg) in &section.pictures {
+            write_prepared(&format!("pictures/{name}"), svg, &places)?;
+        }
+    }
     for chapter in generated.iter().chain([&validation, &speed]) {
         write_prepared(&chapter.path, &chapter.text, &places)?;
     }

@@ -10,6 +10,7 @@ mod math;
 mod reference;
 mod same_bytes;
 mod speed;
+mod step_accuracy;
 mod validation;
 
 use clap::Parser;

@@ -25,6 +25,8 @@ const ACCEPTED: f64 = 1e-9;
 /// Multiple of the mass matrix in the tangent that remains at the solution \[1/s²\].
 const LEAST_SHIFT: f64 = 1e-4;
 const MAX_ITERATIONS: usize = 200;
+/// Steps without progress near convergence after which Newton's method ends.
+const STALLED: usize = 3;
 const MAX_HALVINGS: usize = 80;
 /// Force accepted as none \[N\] where Newton's method does not converge.
 const SMALLEST_FORCE: f64 = 2e-9;
@@ -249,12 +251,10 @@ fn solve(
     let mut residual = residual_of(&q, &reactions);
     let mut iterations = 0;
     let mut stalled = 0;
-    // The residual is a sum of structural forces: it falls to their last digit and no further.
-    let is_converged = |q: &[f64], reactions: &[Reaction], residual: &[f64]| {
-        let left = max_abs(residual);
-        left <= TOLERANCE * size_of(reactions) || left <= 2.0 * f64::EPSILON * structural_force(q)
-    };
-    while !is_converged(&q, &reactions, &residual) && iterations < MAX_ITERATIONS && stalled < 3 {
+    while max_abs(&residual) > TOLERANCE * size_of(&reactions)
+        && iterations < MAX_ITERATIONS
+        && stalled < STALLED
+    {
         iterations += 1;
         let size = size_of(&reactions);
         // (2π · 3 Hz)² at a residual of the load's size, decreasing with it: fast convergence at the end.
@@ -274,8 +274,14 @@ fn solve(
             let at_solution = before <= 0.0 || before.is_nan();
             if along.abs() <= 0.9 * before.abs() || at_solution || halving + 1 == MAX_HALVINGS {
                 let (now, then) = (max_abs(&trial_residual), max_abs(&residual));
-                // Stagnation at round-off level: stop after three steps without progress near convergence.
-                stalled = if now > 0.999 * then && then <= 1e4 * TOLERANCE * size { stalled + 1 } else { 0 };
+                // Stagnation at round-off level. A sum of structural forces falls to their last digit and no further; else the
+                // method stops after three steps without progress near convergence.
+                let at_last_digit = then <= 2.0 * f64::EPSILON * structural_force(&q);
+                stalled = match then <= 1e4 * TOLERANCE * size {
+                    true if at_last_digit && now > 0.5 * then => STALLED,
+                    true if now > 0.999 * then => stalled + 1,
+                    _ => 0,
+                };
                 (q, reactions, residual) = (trial, trial_reactions, trial_residual);
                 break;
             }

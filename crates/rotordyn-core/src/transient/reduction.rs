@@ -263,7 +263,9 @@ pub fn reduce(
     let rows: Vec<_> = map.iter().map(|r| on_structure(r)).collect();
     let interface_map =
         if rows.is_empty() { DMatrix::zeros(0, basis.ncols()) } else { DMatrix::from_rows(&rows) };
+    let natural_frequency = |k: usize, _| if k < modes { squares[k].max(0.0).sqrt() } else { 0.0 };
     let system = System {
+        natural_frequencies: DVector::from_fn(basis.ncols(), natural_frequency),
         panels: Panels::new(matrices, &interface_map),
         damping: matrices[0].clone(),
         stiffness: matrices[1].clone(),

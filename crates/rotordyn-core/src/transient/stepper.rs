@@ -65,7 +65,7 @@ enum MethodMemory {
 impl StepperMemory {
     /// Whether it is one of this integrator and of a system of this size.
     pub fn fits(&self, system: &System, integrator: Integrator) -> bool {
-        let implicit = matches!(integrator, Integrator::GeneralisedAlpha { .. } | Integrator::Newmark);
+        let implicit = !matches!(integrator, Integrator::RungeKutta4 | Integrator::DormandPrince { .. });
         let adaptive = matches!(integrator, Integrator::DormandPrince { .. });
         match &self.method {
             MethodMemory::Implicit(memory) => implicit && memory.fits(system),
@@ -88,6 +88,7 @@ impl Stepper {
                 implicit(Scheme::generalised_alpha(rho_infinity))
             }
             Integrator::Newmark => implicit(Scheme::NEWMARK),
+            Integrator::FittedNewmark => implicit(Scheme::FITTED_NEWMARK),
             Integrator::RungeKutta4 => Method::Fixed(RungeKutta::classical(system)),
             Integrator::DormandPrince { relative_tolerance, absolute_tolerance } => Method::Adaptive {
                 method: RungeKutta::dormand_prince(system),

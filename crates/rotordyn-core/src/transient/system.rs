@@ -47,6 +47,9 @@ impl Channel {
 /// The reduced machine; immutable during a run. Matrices are over the structure, vectors over all coordinates.
 #[derive(Clone, Debug)]
 pub struct System {
+    /// Natural frequencies of the structure's coordinates that are modes of the machine linearised at equilibrium \[rad/s\];
+    /// zero for static corrections and unstable ones.
+    pub natural_frequencies: DVector<f64>,
     pub stiffness: DMatrix<f64>,
     pub damping: DMatrix<f64>,
     pub gyroscopic: DMatrix<f64>,

@@ -13,6 +13,7 @@ use std::f64::consts::TAU;
 pub(super) enum Method {
     Alpha,
     Newmark,
+    Fitted,
     Rk4,
     Dopri,
 }
@@ -23,6 +24,7 @@ keys! {
         integrator: Words<Method> = words(&[
             ("generalised-alpha", Method::Alpha),
             ("newmark", Method::Newmark),
+            ("fitted-newmark", Method::Fitted),
             ("rk4", Method::Rk4),
             ("dormand-prince", Method::Dopri),
         ], "Time integration; rk4 and dormand-prince are explicit. With free balls rk4, also by default.").default("generalised-alpha");
@@ -158,6 +160,7 @@ fn chosen_integrator(r: &Reader, default: Integrator) -> Integrator {
     match method {
         Method::Alpha => Integrator::GeneralisedAlpha { rho_infinity: or_default(rho, &keys.rho_infinity) },
         Method::Newmark => Integrator::Newmark,
+        Method::Fitted => Integrator::FittedNewmark,
         Method::Rk4 => Integrator::RungeKutta4,
         Method::Dopri => Integrator::DormandPrince {
             relative_tolerance: or_default(relative, &keys.relative_tolerance),

@@ -33,7 +33,7 @@ pub(super) struct StepMatrices {
 /// The linear part of a step of one length h, ẍ₁ = F (v̂, x̂, c) + R f₁ + S⁻¹ e, near one speed.
 ///
 /// S ẍ₁ = P c + Wᵀ f₁ + e − (C + Ω G) v̂ − (K + Ω̇ K_s + Ω K_c) x̂ with loads P c at the end of the step, and loads e of a
-/// torque drive; S = 1 + g (γ h (C + Ω G) + β h² (K + Ω̇ K_s + Ω K_c)) = S₀ + κ S′, κ = Ω − Ω_f, so that
+/// torque drive; S = M̂ + g (γ h (C + Ω G) + β h² (K + Ω̇ K_s + Ω K_c)) = S₀ + κ S′, κ = Ω − Ω_f, so that
 /// F ≈ F₀ + κ F₁ − κ² T F₁ with T = S₀⁻¹ S′.
 pub(super) struct StepMatrix {
     step: f64,
@@ -169,8 +169,10 @@ impl StepMatrix {
         let gain = scheme.gain(step);
         let damping = &system.damping + &system.gyroscopic * speed;
         let stiffness = &system.stiffness + &system.spin_up * acceleration + &system.circulatory * speed;
-        let effective = DMatrix::identity(n, n) + &damping * gain.velocity + &stiffness * gain.position;
-        // The effective matrix is the identity plus terms of order h: invertible for any useful step length;
+        let inertia = system.natural_frequencies.map(|frequency| scheme.inertia(frequency, step));
+        let effective =
+            DMatrix::from_diagonal(&inertia) + &damping * gain.velocity + &stiffness * gain.position;
+        // The effective matrix is diagonal but for terms of order h: invertible for any useful step length;
         // a singular one yields NaN, which the divergence check of the driver reports.
         let inverse = effective.try_inverse().unwrap_or_else(|| DMatrix::from_element(n, n, f64::NAN));
         let turn = &inverse * (&system.gyroscopic * gain.velocity + &system.circulatory * gain.position);
