@@ -19,9 +19,13 @@ const VARIANTS: [Option<&str>; 2] = [None, Some("wavy")];
 const ALPHA: Integrator = Integrator::GeneralisedAlpha { rho_infinity: 0.8 };
 /// Integrators with their steps \[us\].
 const CASES: [(&str, Integrator, &[f64]); 4] = [
-    ("fitted-newmark", Integrator::FittedNewmark, &[12.5, 25.0, 50.0, 83.333_333_333_333_33, 125.0, 250.0]),
-    ("newmark", Integrator::Newmark, &[12.5, 25.0, 50.0, 83.333_333_333_333_33, 125.0]),
-    ("generalised-alpha", ALPHA, &[12.5, 25.0, 50.0, 83.333_333_333_333_33, 125.0]),
+    (
+        "fitted-newmark",
+        Integrator::FittedNewmark,
+        &[12.5, 25.0, 50.0, 62.5, 83.333_333_333_333_33, 125.0, 250.0],
+    ),
+    ("newmark", Integrator::Newmark, &[12.5, 25.0, 50.0, 62.5, 83.333_333_333_333_33, 125.0]),
+    ("generalised-alpha", ALPHA, &[12.5, 25.0, 50.0, 62.5, 83.333_333_333_333_33, 125.0]),
     ("rk4", Integrator::RungeKutta4, &[6.25, 10.0, 12.5]),
 ];
 

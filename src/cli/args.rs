@@ -282,7 +282,7 @@ Examples:
     /// results.h5; after Ctrl-C the samples so far remain readable. Default without [study.run_up]:
     /// generalised-alpha, steps by speed and bearings, sampling at 2 kHz, all modes. [study.spectrogram] and
     /// [study.orders] of the file are run too. The step used divides the sampling interval; its error in the
-    /// order levels is estimated by repeating the stretch of the largest response with twice the step.
+    /// order levels is estimated by repeating the stretch of the largest response with about twice the step.
     #[command(after_long_help = "\
 Examples:
   rotordyn run-up models/overhung_rig.toml

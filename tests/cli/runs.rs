@@ -189,6 +189,30 @@ fn step_used_its_error_and_the_cage_angles_are_reported() {
     assert!(number(&found["step_error"]["largest_relative_error"]) < 0.05, "{found}");
 }
 
+/// With an odd number of steps to a sample the rerun has the sampling rate of the run too: at half of it the contacts fold into the
+/// lines, and the estimates were 30 % and more.
+#[test]
+fn step_error_of_three_and_five_steps_to_a_sample() {
+    let folder = tempfile::tempdir().unwrap();
+    for (step, steps_of_rerun) in [(250.0 / 3.0, 2.0), (50.0, 3.0)] {
+        let mut command = rotordyn();
+        command.args([
+            "run-up",
+            RIG,
+            "--no-figures",
+            "--set",
+            "speed.ramp=4 s",
+            "--set",
+            "speed.settle=0.2 s",
+        ]);
+        command.args(["--set", "speed.hold=0.2 s", "--set", &format!("study.run_up.step={step} us")]);
+        let found = &json_of(command.arg("--out").arg(folder.path()))["run_up"]["step_error"];
+        let number = |name: &str| found[name].as_f64().unwrap_or_else(|| panic!("{found}"));
+        assert!((number("rerun_step_s") * 4000.0 * steps_of_rerun - 1.0).abs() < 1e-9, "{found}");
+        assert!(number("largest_relative_error") < 0.1, "{step}: {found}");
+    }
+}
+
 #[test]
 fn order_cuts_range_over_cage_phases() {
     let folder = tempfile::tempdir().unwrap();

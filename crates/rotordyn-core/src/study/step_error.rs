@@ -1,7 +1,9 @@
 //! Error of a run-up's order levels by its time step, from a rerun of a stretch with another step.
 //!
-//! With twice the step a stretch costs half its steps, so that it can begin well before the largest response and the
-//! differences build up as in the whole run. Explicit steps of that length may be unstable: half the step there.
+//! With about twice the step a stretch costs half its steps, so that it can begin well before the largest response and the
+//! differences build up as in the whole run. Both steps divide the sampling interval: at half the sampling rate, contacts
+//! would fold into the lines. Explicit steps of that length may be unstable, and a sampling interval cannot be exceeded: half
+//! the step there.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
@@ -77,8 +79,12 @@ impl Machine {
         let probes = self.model.probes.len();
         let last = (history.time.len() - 1) / every;
         let Some(centre) = largest_response(history, probes, every, last)? else { return Ok(None) };
+        let substeps = (1.0 / (step * study.sample_rate)).round().max(1.0);
         let explicit = study.integrator == Integrator::RungeKutta4;
-        let (lead, compared) = if explicit { (SHORT_LEAD, SHORT_COMPARED) } else { (LEAD, COMPARED) };
+        let other_substeps =
+            if explicit || substeps < 2.0 { 2.0 * substeps } else { (0.5 * substeps).ceil() };
+        let ratio = substeps / other_substeps;
+        let (lead, compared) = if ratio < 1.0 { (SHORT_LEAD, SHORT_COMPARED) } else { (LEAD, COMPARED) };
         let compared_from = centre.saturating_sub(1).min(last.saturating_sub(compared));
         let begin = compared_from.saturating_sub(lead) * every;
         let [first, end] = [compared_from * every, (compared_from + compared).min(last) * every];
@@ -91,23 +97,19 @@ impl Machine {
             return Ok(None);
         }
 
-        // An odd number of steps to a sample, doubled, divides two samples.
-        let substeps = (1.0 / (step * study.sample_rate)).round() as usize;
-        let every_second = !explicit && substeps % 2 == 1;
-        let thinning = if every_second { 2 } else { 1 };
         let Some(state) = checkpoints.states.get(begin / every).cloned() else { return Ok(None) };
         let time_at = |index: usize| Ok(history.time.at(index)?.unwrap_or(f64::NAN));
         let [time_begin, time_first, time_end] = [time_at(begin)?, time_at(first)?, time_at(end)?];
         let settings = Settings {
             integrator: study.integrator,
-            step: step * if explicit { 0.5 } else { 2.0 },
-            sample_rate: study.sample_rate / thinning as f64,
+            step: step * ratio,
+            sample_rate: study.sample_rate,
             duration: time_end - time_begin,
         };
         let skipped = first - begin;
         let (mut angle, mut values) = (Vec::new(), vec![Vec::new(); probes]);
         let rerun = run(&reduction.system, state, &settings, |sample| {
-            if sample.index * thinning >= skipped {
+            if sample.index >= skipped {
                 angle.push(sample.state.spin.angle);
                 values.iter_mut().zip(sample.channels).for_each(|(to, value)| to.push(*value));
             }
@@ -116,21 +118,16 @@ impl Machine {
         if rerun.end != End::Complete {
             return Ok(None);
         }
-        // L(h) − L(0) in terms of the other level less L(h): order 4 with half the step, order 2 with twice the step.
-        let factor = if explicit { -16.0 / 15.0 } else { 1.0 / 3.0 };
-        // The record of the run at the samples of the rerun.
-        let from = first + (thinning - skipped % thinning) % thinning;
-        let at_samples = |stretch: &[f64]| -> Vec<f64> {
-            stretch[from - first..].iter().copied().step_by(thinning).collect()
-        };
-        let own_angle = at_samples(&stretch_angle);
+        // L(h) − L(0) = (L(r h) − L(h))/(r^p − 1) for a method of order p.
+        let order = if explicit { 4 } else { 2 };
+        let factor = 1.0 / (ratio.powi(order) - 1.0);
         let mut lines = Vec::new();
         for (channel, other) in history.channels.iter().zip(&values) {
             let level = |angle: &[f64], values: &[f64]| -> Vec<f64> {
                 orders.iter().map(|order| line_level(angle, values, *order)).collect()
             };
-            let own_values = at_samples(&channel.values.read(first..end + 1)?);
-            let [own, other] = [level(&own_angle, &own_values), level(&angle, other)];
+            let own_values = channel.values.read(first..end + 1)?;
+            let [own, other] = [level(&stretch_angle, &own_values), level(&angle, other)];
             let largest = own.iter().copied().fold(0.0, f64::max);
             let named = self.order_lines(&orders).into_iter();
             for (line, (level, other_level)) in named.zip(own.into_iter().zip(other)) {
