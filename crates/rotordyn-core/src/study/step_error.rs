@@ -1,9 +1,9 @@
 //! Error of a run-up's order levels by its time step, from a rerun of a stretch with another step.
 //!
 //! With about twice the step a stretch costs half its steps, so that it can begin well before the largest response and the
-//! differences build up as in the whole run. Both steps divide the sampling interval: at half the sampling rate, contacts
-//! would fold into the lines. Explicit steps of that length may be unstable, and a sampling interval cannot be exceeded: half
-//! the step there.
+//! differences build up as in the whole run. Both steps divide the sampling interval, since at half the sampling rate contacts
+//! would fold into the lines; a single step to a sample is doubled and every second sample taken. Explicit steps of that
+//! length may be unstable: half the step there.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
@@ -81,10 +81,12 @@ impl Machine {
         let Some(centre) = largest_response(history, probes, every, last)? else { return Ok(None) };
         let substeps = (1.0 / (step * study.sample_rate)).round().max(1.0);
         let explicit = study.integrator == Integrator::RungeKutta4;
-        let other_substeps =
-            if explicit || substeps < 2.0 { 2.0 * substeps } else { (0.5 * substeps).ceil() };
-        let ratio = substeps / other_substeps;
-        let (lead, compared) = if ratio < 1.0 { (SHORT_LEAD, SHORT_COMPARED) } else { (LEAD, COMPARED) };
+        let (ratio, thinning) = match substeps {
+            _ if explicit => (0.5, 1),
+            n if n < 2.0 => (2.0, 2),
+            n => (n / (0.5 * n).ceil(), 1),
+        };
+        let (lead, compared) = if explicit { (SHORT_LEAD, SHORT_COMPARED) } else { (LEAD, COMPARED) };
         let compared_from = centre.saturating_sub(1).min(last.saturating_sub(compared));
         let begin = compared_from.saturating_sub(lead) * every;
         let [first, end] = [compared_from * every, (compared_from + compared).min(last) * every];
@@ -103,13 +105,13 @@ impl Machine {
         let settings = Settings {
             integrator: study.integrator,
             step: step * ratio,
-            sample_rate: study.sample_rate,
+            sample_rate: study.sample_rate / thinning as f64,
             duration: time_end - time_begin,
         };
         let skipped = first - begin;
         let (mut angle, mut values) = (Vec::new(), vec![Vec::new(); probes]);
         let rerun = run(&reduction.system, state, &settings, |sample| {
-            if sample.index >= skipped {
+            if sample.index * thinning >= skipped {
                 angle.push(sample.state.spin.angle);
                 values.iter_mut().zip(sample.channels).for_each(|(to, value)| to.push(*value));
             }
@@ -118,6 +120,12 @@ impl Machine {
         if rerun.end != End::Complete {
             return Ok(None);
         }
+        // The record of the run at the samples of the rerun.
+        let from = first + (thinning - skipped % thinning) % thinning;
+        let at_samples = |stretch: &[f64]| -> Vec<f64> {
+            stretch[from - first..].iter().copied().step_by(thinning).collect()
+        };
+        let own_angle = at_samples(&stretch_angle);
         // L(h) − L(0) = (L(r h) − L(h))/(r^p − 1) for a method of order p.
         let order = if explicit { 4 } else { 2 };
         let factor = 1.0 / (ratio.powi(order) - 1.0);
@@ -126,8 +134,8 @@ impl Machine {
             let level = |angle: &[f64], values: &[f64]| -> Vec<f64> {
                 orders.iter().map(|order| line_level(angle, values, *order)).collect()
             };
-            let own_values = channel.values.read(first..end + 1)?;
-            let [own, other] = [level(&stretch_angle, &own_values), level(&angle, other)];
+            let own_values = at_samples(&channel.values.read(first..end + 1)?);
+            let [own, other] = [level(&own_angle, &own_values), level(&angle, other)];
             let largest = own.iter().copied().fold(0.0, f64::max);
             let named = self.order_lines(&orders).into_iter();
             for (line, (level, other_level)) in named.zip(own.into_iter().zip(other)) {

@@ -21,7 +21,7 @@ fn modes() -> Vec<KnownMode> {
 
 /// U + V/s² of the receptance between two points, as large as the FRF between the modes.
 fn known_terms(response: usize, reference: usize) -> [f64; 2] {
-    let sign = if (response + reference) % 2 == 0 { 1.0 } else { -0.7 };
+    let sign = if (response + reference).is_multiple_of(2) { 1.0 } else { -0.7 };
     let upper = sign * 1e-5 * (1.0 + response as f64);
     [upper, -upper * (TAU * 60.0).powi(2)]
 }

@@ -32,7 +32,7 @@ impl Scheme {
     /// Newmark's average acceleration, γ = ½, β = ¼.
     pub const NEWMARK: Self = Self { alpha_m: 0.0, alpha_f: 0.0, beta: 0.25, gamma: 0.5, fitted: false };
 
-    /// Newmark's average acceleration with fitted inertias ([`Self::inertia`]).
+    /// Newmark's average acceleration with fitted inertias.
     pub const FITTED_NEWMARK: Self = Self { fitted: true, ..Self::NEWMARK };
 
     /// Inertia of a coordinate of unit mass that vibrates at a natural frequency ω \[rad/s\], for steps of length h.
