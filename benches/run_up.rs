@@ -6,15 +6,9 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use rotordyn::bearing::Rotation;
-use rotordyn::model::{Options, load};
-use rotordyn::study::Machine;
-
-fn rig(variant: Option<&str>) -> Machine {
-    let options = Options { variant: variant.map(String::from), ..Options::default() };
-    let text = include_str!("../models/overhung_rig.toml");
-    let loaded = load("overhung_rig.toml", text, &options).expect("the rig's file is valid");
-    Machine::new(loaded.model).expect("the rig has an equilibrium")
-}
+#[path = "common/rig.rs"]
+mod rig;
+use rig::rig;
 
 fn run_up(c: &mut Criterion) {
     let mut group = c.benchmark_group("run_up");

@@ -9,9 +9,12 @@ use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
 use rotordyn::model::study::{Integrator, RunUpStudy};
-use rotordyn::model::{Options, load};
 use rotordyn::study::{Machine, Recorder};
 use rustix::time::{ClockId, clock_gettime};
+
+#[path = "common/rig.rs"]
+mod rig;
+use rig::rig;
 
 const CHANNEL: &str = "B_ax";
 const REFERENCE: f64 = 6.25e-6;
@@ -84,13 +87,6 @@ fn main() {
     text += "]\n";
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/step_accuracy.json");
     std::fs::write(path, text).expect("the folder of this file can be written");
-}
-
-fn rig(variant: Option<&str>) -> Machine {
-    let options = Options { variant: variant.map(String::from), ..Options::default() };
-    let text = include_str!("../models/overhung_rig.toml");
-    let loaded = load("overhung_rig.toml", text, &options).expect("the rig's file is valid");
-    Machine::new(loaded.model).expect("the rig has an equilibrium")
 }
 
 /// Order cuts of a run; `None` if it does not end, as an explicit one with too long a step.

@@ -56,6 +56,17 @@ def test_modes_of_a_file_are_those_of_the_command(noisy: Path, tmp_path: Path) -
                 assert np.array_equal(a[name][()], b[name][()]), name
 
 
+def test_residual_terms_are_those_of_the_command(noisy: Path, tmp_path: Path) -> None:
+    flags = ("--band", "30 .. 200 Hz", "--residual-terms", "none", "--out", str(tmp_path), "--no-figures")
+    expected = command("identify", str(noisy), *flags)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found = rd.identify(noisy, band="30 .. 200 Hz", residual_terms="none")
+        both = rd.identify(noisy, band="30 .. 200 Hz")
+    assert without(found.to_dict()) == without(expected)
+    assert not np.array_equal(found.frequency_hz, both.frequency_hz)
+
+
 def test_modes_of_computed_frfs_are_those_of_the_model(jeffcott: rd.Model) -> None:
     frf = jeffcott.frf(speed="0 rpm", max_frequency="100 Hz")
     modes = jeffcott.modal(speed="0 rpm", modes=4)

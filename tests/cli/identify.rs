@@ -290,3 +290,22 @@ fn results_do_not_depend_on_threads() {
         assert!(one.2 == other.2, "modes.uff differs");
     }
 }
+
+/// A hammer that moves over four points with one sensor: named in the output, and not if the sensor moves.
+#[test]
+fn a_roving_hammer_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let of = |hammer: &[usize]| frfs(hammer).into_iter().filter(|frf| frf.response.node == 2).collect();
+    write(folder, "hammer.uff", of(&[0, 1, 2, 3]));
+    write(folder, "sensor.uff", frfs(&[1]));
+    let output = |file: &str| {
+        let mut command = rotordyn();
+        let output = command.current_dir(folder).args(["identify", file, "--no-figures"]).output().unwrap();
+        assert!(output.status.success());
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let named = "Roving hammer: 4 references, 1 response; mode shapes are over the references.";
+    assert!(output("hammer.uff").contains(named));
+    assert!(!output("sensor.uff").contains("Roving hammer"));
+}

@@ -1,12 +1,15 @@
 //! Fitted order of every time integrator on the rig's nonlinear equations.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
+use crate::machine::{disc, element, shaft};
 use crate::rig::variant;
+use nalgebra::{DMatrix, DVector};
 use rotordyn::bearing::{Bearing, Cage};
-use rotordyn::model::SpeedProfile;
-use rotordyn::model::study::Integrator;
+use rotordyn::element::{Anchor, Bushing, Joint, ShearCoefficient};
+use rotordyn::model::study::{Integrator, RunUpStudy};
+use rotordyn::model::{Probe, Quantity, SpeedProfile, Unbalance};
 use rotordyn::study::Machine;
 use rotordyn::transient::reduction::Reduction;
 use rotordyn::transient::run::{End, Settings, run};
@@ -32,7 +35,7 @@ fn machine() -> (Machine, Reduction) {
 }
 
 /// Final coordinates, started at equilibrium with an initial velocity of the first two coordinates.
-fn end(reduction: &Reduction, integrator: Integrator, steps: usize) -> nalgebra::DVector<f64> {
+fn end(reduction: &Reduction, integrator: Integrator, steps: usize) -> DVector<f64> {
     let system = &reduction.system;
     let mut v = &reduction.equilibrium * 0.0;
     v[0] = 0.02;
@@ -117,6 +120,85 @@ fn fitted_inertias_keep_the_exact_frequencies() {
     let [fitted, plain] = [Integrator::FittedNewmark, Integrator::Newmark].map(largest_error);
     println!("{} modes, {steps} steps: error {fitted:.1e}, of Newmark {plain:.2}", frequencies.len());
     assert!(fitted < 1e-6 && plain > 0.5, "{fitted:.1e} {plain:.1e}");
+}
+
+/// Amplitudes of displacement and acceleration of a mass on a massless shaft with an unbalance, over m e Ω²/|k − m Ω² + j c Ω|
+/// and Ω² times it, below, above and far above its critical speed.
+///
+/// A mass fitted to ω, and average acceleration, give displacements low by (Ω h)²/6 whatever ω is, and accelerations
+/// right to fourth order: the theory chapter's statement.
+#[test]
+fn fitted_inertias_in_forced_vibration() {
+    let (mass, unbalance) = (10.0, 1e-4);
+    let spring: f64 = 48.0 * 2.1e11 * PI / 64.0 * 0.02f64.powi(4) / 0.8f64.powi(3);
+    let natural = (spring / mass).sqrt();
+    let external = 2.0 * 0.02 * mass * natural;
+    for ratio in [0.5, 2.0, 5.0] {
+        let speed = ratio * natural;
+        let mut light = element(0.1, 0.02, 0.02);
+        light.material.density = 1e-3;
+        light.shear = ShearCoefficient::Rigid;
+        let mut model = shaft(vec![light; 8]);
+        model.gravity = [0.0; 3];
+        model.discs.push(disc(4, mass, 1e-6, 1e-6));
+        for (node, axial) in [(0, true), (8, false)] {
+            let locked = [true, true, axial, false, false, axial];
+            model.joints.push(Joint { name: "pin".into(), a: Anchor::node(node), b: Anchor::GROUND, locked });
+        }
+        let mut damping = [[0.0; 6]; 6];
+        (damping[0][0], damping[1][1]) = (external, external);
+        let (a, b, stiffness) = (Anchor::node(4), Anchor::GROUND, [[0.0; 6]; 6]);
+        model.bushings.push(Bushing { name: "damper".into(), a, b, stiffness, damping });
+        model.unbalances.push(Unbalance { name: "u".into(), node: 4, magnitude: unbalance, phase: 0.0 });
+        for quantity in [Quantity::Displacement, Quantity::Acceleration] {
+            let direction = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+            model.probes.push(Probe { name: format!("{quantity:?}"), at: a, direction, quantity });
+        }
+        // The transient has decayed to 1e-10 when the last fifth begins.
+        let duration = 23.0 / (0.02 * natural) / 0.8;
+        model.profile = SpeedProfile::Constant { speed, duration };
+        let machine = Machine::new(model).unwrap();
+        for turn in [0.15, 0.3] {
+            let step = turn / speed;
+            let study = RunUpStudy {
+                integrator: Integrator::FittedNewmark,
+                step,
+                sample_rate: 1.0 / step,
+                cutoff: 100.0,
+                from_equilibrium: true,
+                cage_phases: 0,
+                motion: None,
+            };
+            let reduction = machine.reduce(&study).unwrap();
+            let [mut time, mut x, mut a] = [const { Vec::new() }; 3];
+            let report = machine.run_up(&study, &reduction, |sample| {
+                if sample.state.time > 0.8 * duration {
+                    time.push(sample.state.time);
+                    x.push(sample.channels[0]);
+                    a.push(sample.channels[1]);
+                }
+                ControlFlow::Continue(())
+            });
+            assert_eq!(report.end, End::Complete);
+            let amplitude = |values: &[f64]| {
+                let rows = DMatrix::from_fn(time.len(), 2, |r, c| {
+                    let angle = speed * time[r];
+                    if c == 0 { angle.cos() } else { angle.sin() }
+                });
+                rows.svd(true, true).solve(&DVector::from_column_slice(values), 0.0).unwrap().norm()
+            };
+            let dynamic = (spring - mass * speed * speed).hypot(external * speed);
+            let expected = unbalance * speed * speed / dynamic;
+            let low = 1.0 - amplitude(&x) / expected;
+            let off = amplitude(&a) / (speed * speed * expected) - 1.0;
+            let predicted = turn * turn / 6.0;
+            println!("Ω/ω {ratio}, Ω h {turn}: displacement low by {low:.3e}, acceleration off by {off:.1e}");
+            // Of fourth order, (Ω h)⁴ and (ω h)⁴, with the damping's part.
+            let fourth = (turn * ratio.recip().max(1.0)).powi(4);
+            assert!((low - predicted).abs() < 0.05 * predicted + 0.1 * fourth, "{low} {predicted}");
+            assert!(off.abs() < 0.1 * fourth + 2e-5, "{off}");
+        }
+    }
 }
 
 #[test]

@@ -167,6 +167,7 @@ fn kinematic_cages_with_every_integrator_and_motion() {
     for (integrator, step) in [
         (GENERALISED_ALPHA, 1e-4),
         (Integrator::Newmark, 5e-5),
+        (Integrator::FittedNewmark, 5e-5),
         (Integrator::RungeKutta4, 1e-5),
         (DORMAND_PRINCE, 1e-5),
     ] {
@@ -195,6 +196,7 @@ fn internal_coordinates_with_every_integrator() {
     for (integrator, step) in [
         (GENERALISED_ALPHA, 1e-5),
         (Integrator::Newmark, 1e-5),
+        (Integrator::FittedNewmark, 1e-5),
         (Integrator::RungeKutta4, 2e-6),
         (DORMAND_PRINCE, 2e-6),
     ] {
@@ -223,6 +225,7 @@ fn torque_drive_with_every_integrator() {
     for (integrator, step) in [
         (GENERALISED_ALPHA, 2e-4),
         (Integrator::Newmark, 2e-4),
+        (Integrator::FittedNewmark, 2e-4),
         (Integrator::RungeKutta4, 2e-5),
         (DORMAND_PRINCE, 2e-5),
     ] {

@@ -178,7 +178,7 @@ fn energy_residual(model: Model, integrator: Integrator, step: f64) -> (f64, f64
 #[test]
 fn motor_work_is_stored_or_dissipated_through_passed_and_stuck_resonance() {
     for (rotor, end_above) in [(PASSED, true), (STUCK, false)] {
-        for integrator in [GENERALISED_ALPHA, Integrator::Newmark] {
+        for integrator in [GENERALISED_ALPHA, Integrator::Newmark, Integrator::FittedNewmark] {
             let (coarse, ..) = energy_residual(rotor.model(4.0), integrator, 1e-4);
             let (fine, last, report) = energy_residual(rotor.model(4.0), integrator, 5e-5);
             assert!(fine < 1e-6, "{fine}: {report:?}");

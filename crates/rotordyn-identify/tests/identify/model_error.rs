@@ -169,11 +169,11 @@ fn intervals_cover_noise_and_the_error_of_the_model() {
     assert!(frequency >= 107 && damping >= 107, "{frequency}, {damping}");
 }
 
-/// 200 sets: 50 of each kind; the table of the theory chapter.
+/// 200 sets: 50 of each kind, of seeds on which nothing was chosen; the table of the theory chapter.
 #[test]
 #[ignore = "a study of minutes"]
 fn coverage_of_200_sets() {
-    let sums: Vec<Coverage> = KINDS.iter().map(|kind| coverage(*kind, 0..50)).collect();
+    let sums: Vec<Coverage> = KINDS.iter().map(|kind| coverage(*kind, 3000..3050)).collect();
     let total = |of: &dyn Fn(&Coverage) -> usize| sums.iter().map(of).sum::<usize>();
     let (modes, wrong) = (total(&|s| s.modes), total(&|s| s.wrong));
     let share = |of: &dyn Fn(&Coverage) -> usize| 100.0 * total(of) as f64 / modes as f64;

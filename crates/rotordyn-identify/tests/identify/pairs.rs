@@ -1,5 +1,7 @@
 //! Pairs of close modes: four pairs 0.5 % apart are found, or their row says that it may be two modes.
 
+use std::ops::Range;
+
 use rotordyn_identify::{ModalIdentification, QualityWarning, Settings, identify};
 use rotordyn_signal::record::MeasurementNoise;
 
@@ -59,9 +61,9 @@ impl Count {
     }
 }
 
-fn count(zeta: f64, references: usize, db: Option<f64>, seeds: u64) -> Count {
+fn count(zeta: f64, references: usize, db: Option<f64>, seeds: Range<u64>) -> Count {
     let mut count = Count::default();
-    for seed in 0..seeds {
+    for seed in seeds {
         let known = pairs(zeta, references, seed);
         let mut made = frfs(&known, &lines(10.0, 220.0, 0.1), 2);
         if let Some(db) = db {
@@ -80,18 +82,18 @@ fn count(zeta: f64, references: usize, db: Option<f64>, seeds: u64) -> Count {
 #[test]
 fn pairs_without_noise_are_found() {
     for references in 1..=3 {
-        let count = count(0.01, references, None, 1);
+        let count = count(0.01, references, None, 0..1);
         assert_eq!((count.found, count.wrong), (count.pairs, 0), "{references} references: {count:?}");
     }
 }
 
 #[test]
 fn noisy_pairs_are_found_or_marked() {
-    let count = count(0.01, 1, Some(40.0), 2);
+    let count = count(0.01, 1, Some(40.0), 0..2);
     assert_eq!((count.found + count.marked, count.wrong), (count.pairs, 0), "{count:?}");
 }
 
-/// All dampings, references and noise levels, 6 seeds each: found or marked in 95 %, no wrong mode without a mark.
+/// All dampings, references and noise levels, 6 seeds each on which nothing was chosen: found or marked in 95 %, no wrong mode without a mark.
 #[test]
 #[ignore = "a study of minutes"]
 fn all_pairs() {
@@ -99,7 +101,7 @@ fn all_pairs() {
     for db in [None, Some(60.0), Some(40.0)] {
         for zeta in [0.003, 0.01, 0.03] {
             for references in 1..=3 {
-                let count = count(zeta, references, db, 6);
+                let count = count(zeta, references, db, 100..106);
                 println!("RESULT noise {db:?}, damping {zeta}, {references} references: {count:?}");
                 all += count.pairs;
                 good += count.found + count.marked;

@@ -27,6 +27,9 @@ const PURE_LINE: f64 = 1.5;
 const WIDENED: f64 = 1.0;
 const SURROUNDINGS_RANGE: f64 = 2.0;
 
+/// Mean of how fully lines stand up to which it says more.
+const FIRST: f64 = 0.5;
+
 /// Amplitude of a shaft order, over the part's highest line, that counts fully.
 const ORDER_SHARE: f64 = 1.0 / 3.0;
 
@@ -108,6 +111,8 @@ pub(super) fn features(of: &Contenders, spectrum: &LineSpectrum, known: &KnownLi
     let stands = |l: &&FittedLine| l.harmonic <= counted && l.own && l.evidence > PRESENT;
     out[FEATURES.standing] = fit.main_lines().filter(stands).count() as f64 / counted as f64;
     out[FEATURES.surroundings] = surroundings(fit, spectrum);
+    out[FEATURES.first_harmonics] = harmonics.min(FIRST);
+    out[FEATURES.first_side_bands] = side_bands.min(FIRST);
     out
 }
 

@@ -82,8 +82,8 @@ pub fn outcomes(seed: u64, count: usize) -> Vec<Outcome> {
 }
 
 /// Numbers of records; the coefficients in the code are those of this many.
-const FITTED_RECORDS: usize = 1000;
-const TESTED_RECORDS: usize = 1000;
+const FITTED_RECORDS: usize = 4000;
+const TESTED_RECORDS: usize = 4000;
 
 /// Refits the coefficients, compares them with those in the code and prints the table of the other half.
 ///
