@@ -238,6 +238,25 @@ pub fn png(svg: &str) -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync
     let size = tree.size().to_int_size();
     let (w, h) = (size.width() as f32 * PNG_SCALE, size.height() as f32 * PNG_SCALE);
     let mut pixmap = tiny_skia::Pixmap::new(w as u32, h as u32).ok_or("the figure is too large to render")?;
+    // White: a page whose size is no whole number of pixels does not cover the last row.
+    pixmap.fill(tiny_skia::Color::WHITE);
     resvg::render(&tree, tiny_skia::Transform::from_scale(PNG_SCALE, PNG_SCALE), &mut pixmap.as_mut());
-    Ok(pixmap.encode_png()?)
+    Ok(opaque_png(&pixmap)?)
+}
+
+/// A picture without transparency as PNG.
+///
+/// The least deflation of adaptively filtered rows takes a quarter of the time of the default, for a quarter more bytes.
+fn opaque_png(picture: &tiny_skia::Pixmap) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_filter(png::Filter::Adaptive);
+    encoder.set_deflate_compression(png::DeflateCompression::Level(1));
+    let colors = picture.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect::<Vec<u8>>();
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&colors)?;
+    writer.finish()?;
+    Ok(bytes)
 }
