@@ -113,15 +113,20 @@ pub fn diagnose(
         (_, None) => (0.0, half),
     };
     let tried = kurtogram.as_ref().map_or(1, |k| k.bands().count());
-    let mut spectrum = clock.spectrum(&envelope(record, sample_rate, band)?)?;
     let chosen = rule == BandRule::Lines && kurtogram.is_some();
-    let grading = |spectrum: &Spectrum| BandGrading::new(spectrum, rates, settings, clock.hz_per_unit());
-    let mut graded = grading(&spectrum).diagnosis(rates, chosen);
+    let graded_in = |band: (f64, f64)| -> Result<(Spectrum, GradedDiagnosis), SignalError> {
+        let envelope = envelope(record, sample_rate, band)?;
+        let spectrum = clock.spectrum(&envelope)?;
+        let squared = clock.spectrum(&envelope.iter().map(|e| e * e).collect::<Vec<_>>())?;
+        let grading = BandGrading::new(&spectrum, rates, settings, clock.hz_per_unit());
+        let graded = grading.diagnosis(&squared, rates, chosen);
+        Ok((spectrum, graded))
+    };
+    let (mut spectrum, mut graded) = graded_in(band)?;
     let mut band = band;
     if chosen && graded.finding == Finding::NoFault {
         // No band has lines of the bearing: the whole record shows what else repeats.
-        let whole = clock.spectrum(&envelope(record, sample_rate, (0.0, half))?)?;
-        let other = grading(&whole).diagnosis(rates, chosen);
+        let (whole, other) = graded_in((0.0, half))?;
         if matches!(other.finding, Finding::Periodic(_)) {
             (band, spectrum) = ((0.0, half), whole);
             graded = GradedDiagnosis {

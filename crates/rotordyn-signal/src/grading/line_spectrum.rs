@@ -73,6 +73,13 @@ impl LineSpectrum {
         self.higher_of_two(&self.foreign, frequency)
     }
 
+    /// Mean of [`Self::evidence`], at most `limit` at each place, over the spectrum.
+    pub fn mean_evidence(&self, limit: f64) -> f64 {
+        let inner = self.evidence.get(2..).unwrap_or(&[]);
+        let count = inner.len().saturating_sub(1).max(1) as f64;
+        inner.windows(2).map(|two| two[0].max(two[1]).min(limit)).sum::<f64>() / count
+    }
+
     /// Power of an amplitude at a bin over that of the noise, q = A² ln 2/m².
     pub fn power_ratio(&self, bin: usize, amplitude: f64) -> f64 {
         LN_2 * (amplitude / self.background[bin.min(self.background.len() - 1)]).powi(2)

@@ -4,7 +4,8 @@
 //! side bands of the shaft speed for the inner race, of FTF for balls) are fitted to the envelope spectrum. A
 //! line is a family's own if shaft, mains, a cage with many harmonics, or a family of any other rate that the
 //! remaining peaks support do not explain it as well. A logistic regression for each part on the features of the
-//! best family (`grade.rs`) gives the probability that its part is the damaged one. Its coefficients have the signs
+//! best family (`grade.rs`) gives the probability that its part is the damaged one; three of them are the joint evidence
+//! of its lines in the spectrum of the squared envelope (`joint.rs`). The coefficients have the signs
 //! that mechanics asks for, and it stays below 99.5 %: another source may be at the very rate of a part.
 //!
 //! Records of `tests/diagnosis`: 12 kHz, 5 s (a fifth of them shorter), bearings of 6 to 16 balls at 8 to 60 rev/s;
@@ -19,27 +20,28 @@
 //!
 //! | fault | −20 to −12 dB | −12 to −8 dB | −8 to 10 dB | above 30 dB |
 //! |---|---|---|---|---|
-//! | outer race | 60, 46, 66, 34 (of 107) | 95, 81, 95, 59 (of 59) | 93, 87, 96, 82 (of 246) | 98, 92, 98, 91 (of 53) |
-//! | inner race | 55, 27, 71, 38 (of 101) | 89, 69, 95, 71 (of 62) | 98, 87, 99, 91 (of 248) | 100, 87, 100, 91 (of 55) |
-//! | ball | 53, 44, 61, 23 (of 114) | 87, 83, 87, 19 (of 54) | 95, 89, 96, 42 (of 242) | 96, 93, 98, 70 (of 54) |
-//! | cage | 61, 29, 71, 71 (of 104) | 97, 81, 98, 91 (of 58) | 98, 91, 99, 93 (of 249) | 100, 94, 100, 79 (of 53) |
+//! | outer race | 62, 42, 67, 33 (of 106) | 93, 83, 95, 59 (of 59) | 93, 88, 96, 82 (of 246) | 98, 93, 98, 91 (of 54) |
+//! | inner race | 62, 35, 69, 38 (of 101) | 89, 77, 95, 70 (of 61) | 99, 88, 99, 91 (of 249) | 100, 93, 100, 91 (of 55) |
+//! | ball | 56, 45, 62, 23 (of 113) | 85, 82, 85, 18 (of 55) | 96, 91, 97, 42 (of 242) | 96, 93, 96, 70 (of 54) |
+//! | cage | 60, 29, 71, 71 (of 103) | 97, 80, 98, 92 (of 59) | 98, 91, 99, 93 (of 249) | 100, 94, 100, 79 (of 53) |
 //!
 //! Plain is a threshold on the envelope spectrum of the band of highest kurtosis. It names a part in 32 % of the 2000
-//! records without a fault (thirteen kinds of sources), this module in 2.5 %, at 95 % or above in 0.8 %: in 0.2 % of the
+//! records without a fault (thirteen kinds of sources), this module in 2.4 %, at 95 % or above in 0.8 %: in 0.2 % of the
 //! 1281 without a bearing line in the window of the source's first twelve harmonics, in 1.9 % of the 719 others. Of 141
-//! faults at varying speed 91 % are named, 83 % at 95 % or above; plain, which has no shaft angle, finds 40 %. One of
+//! faults at varying speed 91 % are named, 84 % at 95 % or above; plain, which has no shaft angle, finds 40 %. One of
 //! 2000 faults is given to a wrong part at 95 % or above. Of the diagnoses in both bands graded 50 to 70 %
-//! 58 % are right (of 112), 70 to 85 %: 84 % (of 124), 85 to 95 %: 90 % (of 243), 95 to 99 %: 98 % (of 1372), above:
-//! 99 % (of 1489).
+//! 52 % are right (of 101), 70 to 85 %: 88 % (of 119), 85 to 95 %: 92 % (of 237), 95 to 99 %: 98 % (of 1466), above:
+//! 99 % (of 1429).
 //!
 //! Plain conditions: 5 s at constant speed, one defect with slip, jitter and load zone, nothing beside it but noise and
-//! shaft lines. Of 400 faults of each part at −10 dB, in percent: named, graded 95 % or above, plain: outer race 96, 85,
-//! 73; inner race 94, 73, 82; ball 90, 87, 25; cage 99, 81, 98.
+//! shaft lines. Of 400 faults of each part at −10 dB, in percent: named, graded 95 % or above, plain: outer race 96, 87,
+//! 73; inner race 96, 80, 82; ball 91, 88, 25; cage 99, 81, 98.
 //! Records of other lengths and rates use the same coefficients.
 
 mod contest;
 mod features;
 mod grade;
+mod joint;
 mod line_spectrum;
 mod part_fit;
 mod rival_kind;
@@ -55,7 +57,8 @@ use super::spectrum::Spectrum;
 use contest::{Contest, contest};
 use grade::FEATURES;
 pub use grade::{COEFFICIENTS, FEATURE_COUNT, Features, MOST_CERTAIN};
-use line_spectrum::LineSpectrum;
+use joint::{JointEvidence, joint_evidence};
+use line_spectrum::{KnownLines, LineSpectrum};
 pub use rival_kind::RivalKind;
 pub use rivals::Rival;
 use rivals::find_rivals;
@@ -199,11 +202,25 @@ impl BandGrading {
         self.contest.score
     }
 
-    /// What the band says; `by_evidence`: whether this band was chosen of many by the evidence in it.
-    pub fn diagnosis(&self, rates: &DefectFrequencies, by_evidence: bool) -> GradedDiagnosis {
+    /// What the band says; `squared`: spectrum of its squared envelope, `by_evidence`: whether this band was chosen of
+    /// many by the evidence in it.
+    pub fn diagnosis(
+        &self,
+        squared: &Spectrum,
+        rates: &DefectFrequencies,
+        by_evidence: bool,
+    ) -> GradedDiagnosis {
         let Contest { winner, rivals, unresolved, .. } = &self.contest;
         let mut features = self.contest.features;
         features[FEATURES.given_band] = f64::from(!by_evidence);
+        let known =
+            KnownLines { shaft: rates.shaft, hz_per_unit: self.hz_per_unit, step: self.spectrum.step };
+        let squared = squared.up_to(self.spectrum.end() + 1.5 * self.spectrum.step);
+        let squared = LineSpectrum::new(&squared, rates.shaft, self.hz_per_unit);
+        let JointEvidence { first, harmonics, side_bands } = joint_evidence(winner, &squared, rates, &known);
+        features[FEATURES.joint_first] = first;
+        features[FEATURES.joint_harmonics] = harmonics;
+        features[FEATURES.joint_side_bands] = side_bands;
         let probability = grade::probability(winner.part, &features);
         // Without a part to name every family counts, also one at the rate of the part that fits best.
         let every = || {

@@ -56,7 +56,8 @@ fn side_bands(part: BearingPart) -> &'static [Modulation] {
     }
 }
 
-fn offset(modulation: Modulation, shaft: f64, cage: f64) -> f64 {
+/// Distance of a side band from its harmonic.
+pub(super) fn offset(modulation: Modulation, shaft: f64, cage: f64) -> f64 {
     match modulation {
         Modulation::Shaft(n) => f64::from(n) * shaft,
         Modulation::Cage(n) => f64::from(n) * cage,

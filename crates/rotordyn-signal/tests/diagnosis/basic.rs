@@ -21,9 +21,9 @@ fn faults_at_minus_ten_decibel() {
     let of = |n: usize| Outcome::of(&Generated::basic(SEED, 2 * n, SNR), BandRule::Lines);
     let faults: Vec<Outcome> = (0..FAULTS).into_par_iter().map(of).collect();
     for (part, least_named, least_sure) in [
-        (BearingPart::OuterRace, 94.0, 81.0),
-        (BearingPart::InnerRace, 91.0, 68.0),
-        (BearingPart::Ball, 87.0, 83.0),
+        (BearingPart::OuterRace, 94.0, 83.0),
+        (BearingPart::InnerRace, 94.0, 76.0),
+        (BearingPart::Ball, 88.0, 85.0),
         (BearingPart::Cage, 97.0, 77.0),
     ] {
         let own = faults.iter().filter(|o| o.part == Some(part));

@@ -9,7 +9,7 @@ const RIDGE: f64 = 0.1;
 /// Signs of the coefficients, 0 for either: what speaks for a part never lowers its grade, what speaks against it
 /// never raises it, whatever chance there is in the records.
 const SIGNS: [i8; FEATURE_COUNT] =
-    [0, 1, -1, -1, -1, -1, 1, 0, 1, 1, -1, -1, -1, -1, -1, 1, 1, -1, -1, -1, 0, -1, 1, 1];
+    [0, 1, -1, -1, -1, -1, 1, 0, 1, 1, -1, -1, -1, -1, -1, 1, 1, -1, -1, -1, 0, -1, 1, 1, 1, 1, 1];
 
 /// Log-likelihood of right and wrong less the penalty, its gradient, and Fisher's information with the penalty's.
 fn likelihood(x: &DMatrix<f64>, right: &[bool], beta: &DVector<f64>) -> (f64, DVector<f64>, DMatrix<f64>) {
