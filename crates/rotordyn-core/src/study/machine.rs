@@ -170,14 +170,33 @@ impl Machine {
         speed: f64,
         whirl: f64,
     ) -> Result<Option<LinearSystem>, PhysicsError> {
-        let own: Vec<_> =
-            self.bearings.iter().map(|element| element.tangent_at_whirl(speed, whirl)).collect();
-        if own.iter().all(Option::is_none) {
+        if !self.has_whirl_tables() {
             return Ok(None);
         }
-        let tangents = self.tangents(speed, true)?.into_iter().zip(own);
-        let tangents: Vec<_> = tangents.map(|(tangent, own)| own.unwrap_or(tangent)).collect();
-        LinearSystem::new(&self.assembly, &tangents, speed).map(Some)
+        self.linear_system_with_whirl(&self.tangents(speed, true)?, speed, whirl).map(Some)
+    }
+
+    /// Whether a bearing has coefficients over whirl frequency.
+    pub(super) fn has_whirl_tables(&self) -> bool {
+        self.bearings.iter().any(|element| element.tangent_at_whirl(0.0, 0.0).is_some())
+    }
+
+    /// The equations of motion at a speed for motions of one frequency \[rad/s\]: only bearings with coefficients over it are
+    /// evaluated, the others have the tangents at that speed.
+    ///
+    /// # Errors
+    /// As [`LinearSystem::new`].
+    pub(super) fn linear_system_with_whirl(
+        &self,
+        tangents: &[SiteTangent],
+        speed: f64,
+        whirl: f64,
+    ) -> Result<LinearSystem, PhysicsError> {
+        let own = |(element, tangent): (&Arc<dyn BearingElement>, &SiteTangent)| {
+            element.tangent_at_whirl(speed, whirl).unwrap_or(*tangent)
+        };
+        let tangents: Vec<_> = self.bearings.iter().zip(tangents).map(own).collect();
+        LinearSystem::new(&self.assembly, &tangents, speed)
     }
 
     /// Motions that nothing constrains at a speed, in words: rigid-body modes at 0 Hz.
