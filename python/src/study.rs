@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
 use pyo3::prelude::*;
 use rotordyn::model::{Diagnostic, Loaded};
 use rotordyn::results::Results;
@@ -38,13 +38,17 @@ pub fn silent() -> Terminal {
 /// The command of a study with its flags, such as `["modal", "--speed=1200 rpm"]`.
 pub fn parsed(command: &[String]) -> Result<Command, Failure> {
     let (name, flags) = command.split_first().map_or(("", &[][..]), |(name, rest)| (name.as_str(), rest));
+/// All commands: their help texts take longer than a small study.
+static COMMANDS: LazyLock<clap::Command> = LazyLock::new(Cli::command);
+
     let words = ["rotordyn", name, "model"].into_iter().chain(flags.iter().map(String::as_str));
     let in_one_line = |error: clap::Error| {
         let text = error.to_string();
         let line = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_string();
         Failure::Input(line)
     };
-    Ok(Cli::try_parse_from(words).map_err(in_one_line)?.command)
+    let found = COMMANDS.clone().try_get_matches_from(words);
+    Ok(found.and_then(|mut found| Cli::from_arg_matches_mut(&mut found)).map_err(in_one_line)?.command)
 }
 
 /// The model of a study with its settings, assembled.
