@@ -1,9 +1,10 @@
 //! Studies of a model, with the settings that the command of the same name takes from its flags.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use clap::{CommandFactory, FromArgMatches};
 use pyo3::prelude::*;
+use rotordyn::linalg::StopRequest;
 use rotordyn::model::{Diagnostic, Loaded};
 use rotordyn::results::Results;
 use rotordyn::study::Machine;
@@ -16,7 +17,7 @@ use crate::cli::outcome::add_warnings;
 use crate::cli::studies::Study;
 use crate::cli::study_command::StudyCommand;
 use crate::cli::terminal::Terminal;
-use crate::failure::{Stop, detached};
+use crate::failure::{Stop, interruptible};
 use crate::results::StudyResults;
 use crate::source::Source;
 
@@ -30,17 +31,19 @@ pub struct Prepared {
 }
 
 /// A terminal that prints nothing; it keeps the warnings.
-pub fn silent() -> Terminal {
+pub fn silent(stop: &StopRequest) -> Terminal {
     let output = Output { json: false, quiet: true, strict: false, threads: None, read_limit: None };
-    Terminal::new(&output).without_warnings()
+    let mut terminal = Terminal::new(&output).without_warnings();
+    terminal.stop = stop.clone();
+    terminal
 }
+
+/// All commands: their help texts take longer than a small study.
+static COMMANDS: LazyLock<clap::Command> = LazyLock::new(Cli::command);
 
 /// The command of a study with its flags, such as `["modal", "--speed=1200 rpm"]`.
 pub fn parsed(command: &[String]) -> Result<Command, Failure> {
     let (name, flags) = command.split_first().map_or(("", &[][..]), |(name, rest)| (name.as_str(), rest));
-/// All commands: their help texts take longer than a small study.
-static COMMANDS: LazyLock<clap::Command> = LazyLock::new(Cli::command);
-
     let words = ["rotordyn", name, "model"].into_iter().chain(flags.iter().map(String::as_str));
     let in_one_line = |error: clap::Error| {
         let text = error.to_string();
@@ -70,7 +73,7 @@ pub fn prepare(
         settings.flags.push((path.clone(), format!("--{name} {value}")));
     }
     let mut loaded = if settings.set.is_empty() { base.clone() } else { source.load_with(&settings)? };
-    prepare_machine_films(&mut loaded.model, &std::env::temp_dir(), &silent())?;
+    prepare_machine_films(&mut loaded.model, &std::env::temp_dir(), &silent(&StopRequest::default()))?;
     let machine = Machine::new(loaded.model)?;
     machine.check_memory(study.name())?;
     let results = Results {
@@ -105,8 +108,10 @@ pub fn compute(
     base: &Loaded,
     command: &[String],
     keys: &[(String, String)],
+    stop: &StopRequest,
 ) -> Result<StudyResults, Stop> {
     let mut prepared = prepare(source, base, command, keys)?;
+    prepared.machine.stop = stop.clone();
     let Prepared { study, machine, results, .. } = &mut prepared;
     if !study.is_linear() {
         return Err(Failure::Input(format!("{} is not a linear study", study.name())).into());
@@ -126,5 +131,6 @@ pub fn linear_study(
     command: Vec<String>,
     keys: Vec<(String, String)>,
 ) -> PyResult<StudyResults> {
-    detached(py, || compute(&source.file, &source.loaded, &command, &keys))
+    let (file, loaded) = (source.file.clone(), source.loaded.clone());
+    interruptible(py, move |stop| compute(&file, &loaded, &command, &keys, stop))
 }
