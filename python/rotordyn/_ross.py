@@ -34,7 +34,11 @@ def from_ross(rotor: Any, name: str | None = None) -> Model:
 
     with tempfile.TemporaryDirectory(prefix="rotordyn") as folder:
         path = os.path.join(folder, "rotor.toml")
-        save(path)
+        try:
+            save(path)
+        except Exception as error:
+            kind, why = type(rotor).__name__, f"{type(error).__name__}: {error}"
+            raise InputError(f"ROSS cannot save this {kind} ({why}); only what it saves can be imported") from error
         if not os.path.isfile(path):
             raise InputError(f"{type(rotor).__name__}.save wrote no file: a ross.Rotor is needed")
         return _imported(path, str(getattr(rotor, "tag", None) or "rotor") if name is None else name)

@@ -14,7 +14,7 @@ use crate::cli::ehl_films;
 use crate::cli::failure::Failure;
 use crate::cli::machine::ModelSource;
 use crate::cli::settings;
-use crate::failure::{Stop, detached};
+use crate::failure::{Stop, interruptible};
 use crate::reading::use_default_limits;
 use crate::study::{parsed, silent};
 
@@ -25,7 +25,7 @@ type Parts = (Vec<u8>, String, PathBuf, Option<String>, Vec<(String, String)>);
 #[pyfunction]
 pub fn bearings(py: Python<'_>, parts: Parts, words: Vec<String>) -> PyResult<Analysis> {
     use_default_limits();
-    detached(py, || {
+    interruptible(py, move |stop| {
         let words: Vec<String> = std::iter::once("bearing".into()).chain(words).collect();
         let Command::Bearing(args) = parsed(&words)? else {
             return Err(Stop::from(Failure::Input("this command analyses no bearing".into())));
@@ -34,7 +34,7 @@ pub fn bearings(py: Python<'_>, parts: Parts, words: Vec<String>) -> PyResult<An
         let mut file = ModelSource { name, text, options: Options { variant, set }, folder, files: None };
         let settings = settings::bearing(&args)?;
         let mut loaded = file.load_bearings(&settings)?;
-        let (terminal, place) = (silent(), std::env::temp_dir());
+        let (terminal, place) = (silent(stop), std::env::temp_dir());
         match &mut loaded.model {
             Some(model) => ehl_films::prepare_machine_films(model, &place, &terminal)?,
             None => {

@@ -1,10 +1,14 @@
 //! Failures as exceptions of `rotordyn.errors`, with the text that the command prints and the problems as data.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::thread;
+use std::time::Duration;
 
 use miette::Severity;
 use pyo3::prelude::*;
 use pyo3::types::PyType;
+use rotordyn::linalg::StopRequest;
 use rotordyn::model::ModelErrors;
 
 use crate::cli::diagnostics::render;
@@ -33,14 +37,54 @@ pub fn detached<T: Send>(
     py: Python<'_>,
     compute: impl FnOnce() -> Result<T, Stop> + Send,
 ) -> Result<T, PyErr> {
-    let guarded = || {
-        catch_unwind(AssertUnwindSafe(compute)).unwrap_or_else(|bug| {
-            let text = bug.downcast_ref::<String>().map(String::as_str);
-            let text = text.or_else(|| bug.downcast_ref::<&str>().copied());
-            Err(Stop::Bug(text.unwrap_or("a panic").into()))
-        })
+    py.detach(|| guarded(compute)).map_err(|stop| to_python(py, stop))
+}
+
+/// Time between two looks at the interpreter: for Ctrl-C, and for the progress of a run.
+pub const LOOK: Duration = Duration::from_millis(50);
+/// Longest wait for the end of a computation after Ctrl-C; one that does not look at the request goes on for nobody.
+const PATIENCE: Duration = Duration::from_secs(1);
+/// Stack of a computation: that of the main thread of a program.
+const STACK: usize = 8 << 20;
+
+/// Computes in a thread of its own, while this one looks for Ctrl-C, which requests the end of the computation and raises
+/// `KeyboardInterrupt`.
+pub fn interruptible<T: Send + 'static>(
+    py: Python<'_>,
+    compute: impl FnOnce(&StopRequest) -> Result<T, Stop> + Send + 'static,
+) -> PyResult<T> {
+    let request = StopRequest::default();
+    let (send, receive) = sync_channel(1);
+    let own = request.clone();
+    let computation = move || {
+        // Nobody waits any more after a request.
+        let _ = send.send(guarded(|| compute(&own)));
     };
-    py.detach(guarded).map_err(|stop| to_python(py, stop))
+    thread::Builder::new().name("rotordyn".into()).stack_size(STACK).spawn(computation)?;
+    let wait = move || loop {
+        match receive.recv_timeout(LOOK) {
+            Ok(found) => return found,
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(Stop::Bug("a computation without an end".into()));
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        if let Err(raised) = Python::attach(|py| py.check_signals()) {
+            request.request();
+            let _ = receive.recv_timeout(PATIENCE);
+            return Err(Stop::Python(raised));
+        }
+    };
+    py.detach(wait).map_err(|stop| to_python(py, stop))
+}
+
+/// A panic as an error.
+fn guarded<T>(compute: impl FnOnce() -> Result<T, Stop>) -> Result<T, Stop> {
+    catch_unwind(AssertUnwindSafe(compute)).unwrap_or_else(|bug| {
+        let text = bug.downcast_ref::<String>().map(String::as_str);
+        let text = text.or_else(|| bug.downcast_ref::<&str>().copied());
+        Err(Stop::Bug(text.unwrap_or("a panic").into()))
+    })
 }
 
 /// The exception of a failure.

@@ -15,7 +15,7 @@ use crate::analysis::{Analysis, Found};
 use crate::cli::args::Command;
 use crate::cli::failure::Failure;
 use crate::cli::identify::{InMemory, compute};
-use crate::failure::{Stop, detached, to_python};
+use crate::failure::{Stop, interruptible, to_python};
 use crate::reading::use_default_limits;
 use crate::results::StudyResults;
 use crate::source::Source;
@@ -164,7 +164,9 @@ pub fn identify(
     source: Option<&Source>,
 ) -> PyResult<Analysis> {
     use_default_limits();
-    detached(py, || {
+    let mut data = measured.map(|measured| measured.data.clone());
+    let model = source.map(|source| source.loaded.model.clone());
+    interruptible(py, move |stop| {
         let words: Vec<String> = std::iter::once("identify".into()).chain(words).collect();
         let Command::Identify(mut args) = parsed(&words)? else {
             return Err(Stop::from(Failure::Input("this command identifies no modes".into())));
@@ -173,8 +175,7 @@ pub fn identify(
         if args.files.len() > 1 {
             args.files.remove(0);
         }
-        let terminal = silent();
-        let mut data = measured.map(|measured| measured.data.clone());
+        let terminal = silent(stop);
         if let Some(data) = &mut data {
             let zero = without_zero_responses(data);
             if !zero.is_empty() {
@@ -182,7 +183,7 @@ pub fn identify(
                 terminal.warn_of(Code::LeftOut, text);
             }
         }
-        let in_memory = InMemory { measured: data, model: source.map(|source| source.loaded.model.clone()) };
+        let in_memory = InMemory { measured: data, model };
         let found = compute(&args, &in_memory, &terminal)?;
         let mut warnings = terminal.warnings();
         let of_modes = found.warnings.iter();

@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use rotordyn::linalg::StopRequest;
 
 use crate::cli;
 use crate::failure::{Stop, detached};
@@ -40,7 +41,7 @@ pub fn set_threads(py: Python<'_>, threads: usize) -> PyResult<()> {
 #[pyfunction]
 pub fn catalogue(py: Python<'_>, designation: &str) -> PyResult<String> {
     detached(py, || {
-        let found = cli::catalogue::run(Some(designation), &crate::study::silent())?;
+        let found = cli::catalogue::run(Some(designation), &crate::study::silent(&StopRequest::default()))?;
         Ok(found["bearings"].to_string())
     })
 }

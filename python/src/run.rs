@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use pyo3::prelude::*;
 use rotordyn::document::TO_RPM;
@@ -18,13 +18,10 @@ use crate::cli::failure::Failure;
 use crate::cli::machine::ModelSource;
 use crate::cli::settings::{self, Settings};
 use crate::cli::studies::Study;
-use crate::failure::{Stop, detached};
+use crate::failure::{LOOK, Stop, detached};
 use crate::results::StudyResults;
 use crate::source::Source;
 use crate::study::{Prepared, parsed, prepare};
-
-/// Time between two looks at the interpreter: for Ctrl-C, and for the progress.
-const LOOK: Duration = Duration::from_millis(50);
 
 /// What Python says during a run.
 struct Watch {

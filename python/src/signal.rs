@@ -16,7 +16,7 @@ use crate::cli::signal::channel::analyse_channel;
 use crate::cli::signal::input::InputProblems;
 use crate::cli::signal::shaft_source::ShaftSource;
 use crate::cli::signal::{bearing, orders, record_speed, settings};
-use crate::failure::{Stop, detached};
+use crate::failure::{Stop, interruptible};
 use crate::reading::use_default_limits;
 use crate::source::{WarningTexts, warning_texts};
 use crate::study::parsed;
@@ -39,7 +39,7 @@ pub fn diagnose<'py>(
     use_default_limits();
     let samples = samples.as_array().to_vec();
     let channel = SignalChannel { name, unit, sample_rate, start: 0.0, samples, orthogonal: None };
-    let (found, json, figures, warnings) = detached(py, || {
+    let (found, json, figures, warnings) = interruptible(py, move |_| {
         let (found, warnings) = analysed(&channel, flags)?;
         let document = rotordyn::io::json::signal_to_json(std::slice::from_ref(&found), None);
         let json = document.get("channels").and_then(|all| all.get(0)).unwrap_or(&Value::Null).to_string();

@@ -1,9 +1,10 @@
 //! Studies of a model, with the settings that the command of the same name takes from its flags.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
 use pyo3::prelude::*;
+use rotordyn::linalg::StopRequest;
 use rotordyn::model::{Diagnostic, Loaded};
 use rotordyn::results::Results;
 use rotordyn::study::Machine;
@@ -16,7 +17,7 @@ use crate::cli::outcome::add_warnings;
 use crate::cli::studies::Study;
 use crate::cli::study_command::StudyCommand;
 use crate::cli::terminal::Terminal;
-use crate::failure::{Stop, detached};
+use crate::failure::{Stop, interruptible};
 use crate::results::StudyResults;
 use crate::source::Source;
 
@@ -30,10 +31,15 @@ pub struct Prepared {
 }
 
 /// A terminal that prints nothing; it keeps the warnings.
-pub fn silent() -> Terminal {
+pub fn silent(stop: &StopRequest) -> Terminal {
     let output = Output { json: false, quiet: true, strict: false, threads: None, read_limit: None };
-    Terminal::new(&output).without_warnings()
+    let mut terminal = Terminal::new(&output).without_warnings();
+    terminal.stop = stop.clone();
+    terminal
 }
+
+/// All commands: their help texts take longer than a small study.
+static COMMANDS: LazyLock<clap::Command> = LazyLock::new(Cli::command);
 
 /// The command of a study with its flags, such as `["modal", "--speed=1200 rpm"]`.
 pub fn parsed(command: &[String]) -> Result<Command, Failure> {
@@ -44,7 +50,8 @@ pub fn parsed(command: &[String]) -> Result<Command, Failure> {
         let line = text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_string();
         Failure::Input(line)
     };
-    Ok(Cli::try_parse_from(words).map_err(in_one_line)?.command)
+    let found = COMMANDS.clone().try_get_matches_from(words);
+    Ok(found.and_then(|mut found| Cli::from_arg_matches_mut(&mut found)).map_err(in_one_line)?.command)
 }
 
 /// The model of a study with its settings, assembled.
@@ -66,7 +73,7 @@ pub fn prepare(
         settings.flags.push((path.clone(), format!("--{name} {value}")));
     }
     let mut loaded = if settings.set.is_empty() { base.clone() } else { source.load_with(&settings)? };
-    prepare_machine_films(&mut loaded.model, &std::env::temp_dir(), &silent())?;
+    prepare_machine_films(&mut loaded.model, &std::env::temp_dir(), &silent(&StopRequest::default()))?;
     let machine = Machine::new(loaded.model)?;
     machine.check_memory(study.name())?;
     let results = Results {
@@ -101,8 +108,10 @@ pub fn compute(
     base: &Loaded,
     command: &[String],
     keys: &[(String, String)],
+    stop: &StopRequest,
 ) -> Result<StudyResults, Stop> {
     let mut prepared = prepare(source, base, command, keys)?;
+    prepared.machine.stop = stop.clone();
     let Prepared { study, machine, results, .. } = &mut prepared;
     if !study.is_linear() {
         return Err(Failure::Input(format!("{} is not a linear study", study.name())).into());
@@ -122,5 +131,6 @@ pub fn linear_study(
     command: Vec<String>,
     keys: Vec<(String, String)>,
 ) -> PyResult<StudyResults> {
-    detached(py, || compute(&source.file, &source.loaded, &command, &keys))
+    let (file, loaded) = (source.file.clone(), source.loaded.clone());
+    interruptible(py, move |stop| compute(&file, &loaded, &command, &keys, stop))
 }

@@ -8,7 +8,7 @@ use crate::cli::failure::Failure;
 use crate::cli::update::read;
 use crate::cli::update_fit::{Fit, UpdateContext};
 use crate::cli::{free_parameters, update_findings};
-use crate::failure::{Stop, detached};
+use crate::failure::{Stop, interruptible};
 use crate::identify::Measured;
 use crate::source::Source;
 use crate::study::{parsed, silent};
@@ -22,18 +22,19 @@ pub fn update(
     words: Vec<String>,
     measured: Option<&Measured>,
 ) -> PyResult<Analysis> {
-    detached(py, || {
+    let (origin, model) = (source.file.clone(), source.loaded.model.clone());
+    let given = measured.map(|measured| measured.data.clone());
+    interruptible(py, move |stop| {
         let words: Vec<String> = std::iter::once("update".into()).chain(words).collect();
         let Command::Update(args) = parsed(&words)? else {
             return Err(Stop::from(Failure::Input("this command updates no model".into())));
         };
-        let (terminal, origin) = (silent(), &source.file);
-        let parameters = free_parameters::parameters(&args, origin, &terminal)?;
+        let terminal = silent(stop);
+        let parameters = free_parameters::parameters(&args, &origin, &terminal)?;
         update_findings::check_profiles(&args.profile, &parameters)?;
         let folder = std::env::temp_dir();
-        let context = UpdateContext { origin, folder: &folder, terminal: &terminal };
-        let model = context.with_films(source.loaded.model.clone())?;
-        let given = measured.map(|measured| measured.data.clone());
+        let context = UpdateContext { origin: &origin, folder: &folder, terminal: &terminal };
+        let model = context.with_films(model)?;
         let read = read(&args, &model, given, &terminal)?;
         let fit = Fit::new(&args, &context, model.title, parameters, read)?;
         fit.pair_warnings(&terminal)?;

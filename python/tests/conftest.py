@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import subprocess
+import sys
 import sysconfig
 import warnings
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -23,6 +26,19 @@ def load(name: str) -> rd.Model:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return rd.load(MODELS / name)
+
+
+def as_module(path: Path) -> ModuleType:
+    """A program of the repository as a module.
+
+    Its folder is no place to import from: processes that tests start would find the package without its native part there.
+    """
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[path.stem] = module
+    spec.loader.exec_module(module)
+    return module
 
 
 def command(*words: str) -> dict[str, Any]:

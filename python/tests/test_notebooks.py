@@ -10,11 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from conftest import ROOT
+from conftest import ROOT, as_module
 
 FOLDER = ROOT / "python" / "notebooks"
-sys.path.insert(0, str(FOLDER))
-import make  # noqa: E402
+make = as_module(FOLDER / "make.py")
 
 PROGRAMS = make.programs()
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 import pickle
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -12,10 +11,9 @@ import numpy as np
 import pytest
 
 import rotordyn as rd
-from conftest import COMMAND, ROOT, load
+from conftest import COMMAND, ROOT, as_module, load
 
-sys.path.insert(0, str(ROOT / "python"))
-import make_parts  # noqa: E402
+make_parts = as_module(ROOT / "python" / "make_parts.py")
 
 
 def jeffcott_in_code() -> rd.Model:

@@ -47,6 +47,13 @@ def test_bad_use(tmp_path: Path) -> None:
 
     with pytest.raises(rd.InputError, match="wrote no file"):
         rd.from_ross(Rotor())
+
+    class Unsaved:
+        def save(self, path: str) -> None:
+            raise AttributeError("no attribute 'base_diameter'")
+
+    with pytest.raises(rd.InputError, match="cannot save this Unsaved .*base_diameter"):
+        rd.from_ross(Unsaved())
     jeffcott = load("jeffcott.toml")
     for wrong in ([], "0 rpm", ["0 rpm", "0 rpm"], ["1 m"], [3], None):
         with pytest.raises(rd.InputError):

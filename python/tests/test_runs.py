@@ -68,8 +68,12 @@ def test_progress_and_its_exception() -> None:
         model.run_up(progress=refuse)
 
 
+#: Makes a run longer than any test waits.
+LONG = "speed.hold=2000 s"
+
+
 def test_ctrl_c_keeps_what_was_computed() -> None:
-    model = load("overhung_rig.toml")
+    model = load("overhung_rig.toml").with_changes(dict([LONG.split("=")]))
     # A shell that starts the tests in the background ignores Ctrl-C for them.
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
@@ -174,9 +178,11 @@ def test_the_command() -> None:
 
 
 def test_ctrl_c_ends_the_command(tmp_path: Path) -> None:
-    words = ["run-up", str(MODELS / "overhung_rig.toml"), "--out", str(tmp_path), "--no-figures", "--quiet"]
+    words = ["run-up", str(MODELS / "overhung_rig.toml"), "--out", str(tmp_path), "--no-figures", "--quiet", "--set", LONG]
     running = subprocess.Popen([COMMAND, *words], stderr=subprocess.PIPE, text=True)
-    time.sleep(3.0)
+    # Its file is there when it computes.
+    while not (tmp_path / "results_unfinished.h5").exists() and running.poll() is None:
+        time.sleep(0.05)
     running.send_signal(signal.SIGINT)
     _, err = running.communicate(timeout=300)
     assert running.returncode == 130 and "KeyboardInterrupt" not in err, err

@@ -63,7 +63,7 @@ pub fn compute(
     in_memory: &InMemory,
     terminal: &Terminal,
 ) -> Result<Identified, Failure> {
-    let settings = settings(args)?;
+    let settings = Settings { stop: terminal.stop.clone(), ..settings(args)? };
     let test = ImpactTest {
         force: args.force.clone(),
         block: parse_positive("--block", args.block.as_ref(), units::TIME)?,
@@ -88,6 +88,7 @@ pub fn compute(
                 band: settings.band,
                 max_order: settings.max_order,
                 orders,
+                stop: settings.stop,
                 ..OperationalSettings::default()
             };
             return operational::compute(args, &path, file, settings, terminal);
@@ -97,7 +98,7 @@ pub fn compute(
     };
     spinner.finish_and_clear();
     left_out.into_iter().for_each(|text| terminal.warn_of(Code::LeftOut, text));
-    let (measured, frfs, found) = match outcome {
+    let (measured, frfs, found) = match terminal.unless_stopped(outcome) {
         Ok(found) => found,
         Err(failure) => {
             warnings.into_iter().for_each(|warning| terminal.warn_of(Code::Identification, warning));

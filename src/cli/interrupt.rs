@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock};
 
+use rotordyn::linalg::StopRequest;
 #[cfg(unix)]
 use signal_hook::consts::{SIGHUP, SIGXFSZ};
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -54,6 +55,11 @@ fn is_ignored(signal: i32) -> bool {
 /// Whether a signal requested the end.
 pub fn requested() -> bool {
     REQUESTED.load(Ordering::SeqCst)
+}
+
+/// The request of a signal, for computations that end by one.
+pub fn stop_request() -> StopRequest {
+    StopRequest::of(REQUESTED.clone())
 }
 
 /// Exit code of a command that a signal ended: 128 and the number of the signal.

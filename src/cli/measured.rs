@@ -40,7 +40,13 @@ pub fn read_one(
         Some(text) => Some(units::parse(text, SPEED).map_err(|e| Failure::Input(format!("--speed: {e}")))?),
         None => None,
     };
-    let reading = ReadSettings { mapping: args.mapping.as_deref(), band, speed, limits: Some(limits()) };
+    let reading = ReadSettings {
+        mapping: args.mapping.as_deref(),
+        band,
+        speed,
+        limits: Some(limits()),
+        stop: Some(&terminal.stop),
+    };
     let path = &args.measured[k];
     let bar = terminal.spinner(&format!("reading {}", path.display()));
     let found = match given {
@@ -48,7 +54,7 @@ pub fn read_one(
         None => test_data::read(path, &reading, model),
     };
     bar.finish_and_clear();
-    let found = found?;
+    let found = terminal.unless_stopped(found)?;
     for left_out in found.iter().filter_map(|found| found.left_out.as_ref()) {
         terminal.warn_of(Code::LeftOut, format!("{}: {left_out}", path.display()));
     }

@@ -62,8 +62,9 @@ pub fn compute(
     let found = identify_operational(&record, &settings);
     spinner.finish_and_clear();
     findings.warnings.iter().for_each(|text| terminal.warn_of(Code::MeasuredData, text.clone()));
-    let found =
-        found.map_err(|error| Failure::Input(format!("{}: {}", path.display(), Error::from(error))))?;
+    let found = terminal.unless_stopped(
+        found.map_err(|error| Failure::Input(format!("{}: {}", path.display(), Error::from(error)))),
+    )?;
     let warnings = found.warnings.clone();
     Ok(Identified { stem, measured: file.measured, modes: Modes::InOperation(found), warnings })
 }

@@ -5,9 +5,12 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use rotordyn::linalg::StopRequest;
 use rotordyn::warning::{Code, Warning};
 
 use super::args::Output;
+use super::failure::Failure;
+use super::interrupt;
 
 pub use rotordyn::document::number;
 
@@ -23,6 +26,8 @@ pub struct Terminal {
     warnings_shown: bool,
     bold: bool,
     pub colour: bool,
+    /// The user's request to end the command.
+    pub stop: StopRequest,
     /// All warnings, for the JSON document.
     warnings: Mutex<Vec<Warning>>,
     /// Notes printed so far.
@@ -42,6 +47,7 @@ impl Terminal {
             warnings_shown: true,
             bold: colour_allowed && stdout().is_terminal(),
             colour: colour_allowed && stderr().is_terminal(),
+            stop: interrupt::stop_request(),
             warnings: Mutex::default(),
             notes: Mutex::default(),
             lost: Mutex::default(),
@@ -61,7 +67,16 @@ impl Terminal {
     fn alike(&self) -> Self {
         let Self { tables, progress, notes_shown, warnings_shown, bold, colour, .. } = *self;
         let (warnings, notes, lost) = (Mutex::default(), Mutex::default(), Mutex::default());
-        Self { tables, progress, notes_shown, warnings_shown, bold, colour, warnings, notes, lost }
+        let stop = self.stop.clone();
+        Self { tables, progress, notes_shown, warnings_shown, bold, colour, stop, warnings, notes, lost }
+    }
+
+    /// What a computation found, unless the user asked for its end.
+    ///
+    /// # Errors
+    /// That of the computation, or [`Failure::Interrupted`].
+    pub fn unless_stopped<T>(&self, found: Result<T, impl Into<Failure>>) -> Result<T, Failure> {
+        if self.stop.is_requested() { Err(Failure::Interrupted) } else { found.map_err(Into::into) }
     }
 
     /// Prints one or more lines to standard output.

@@ -44,6 +44,9 @@ impl UpdateContext<'_> {
         let origin = self.origin;
         let mut options: Options = origin.options.clone();
         options.set.extend_from_slice(set);
+        if self.terminal.stop.is_requested() {
+            return Err(UpdateError::new("the update was stopped", "start it again"));
+        }
         let changed = |e: &dyn std::fmt::Display| {
             let advice = "set --bounds that keep the free parameters valid";
             UpdateError::new(format!("{}: {e}", origin.name), advice)
@@ -101,7 +104,7 @@ impl Fit {
             max_iterations: args.iterations,
         });
         bar.finish_and_clear();
-        let found = found?;
+        let found = context.terminal.unless_stopped(found)?;
         let frfs = |state| Ok::<_, UpdateFailure>(Correlation::new(&read.target, state)?.frfs);
         let (before, after) = (frfs(&found.before)?, frfs(&found.after)?);
         Ok(Self { title, parameters, read, fitting, iterations: args.iterations, found, before, after })
@@ -116,7 +119,14 @@ impl Fit {
             load: &|set| context.load(set),
             max_iterations: self.iterations,
         };
-        update_findings::findings(context.terminal, &job, &self.found, context.origin, profile)
+        let terminal = context.terminal;
+        terminal.unless_stopped(update_findings::findings(
+            terminal,
+            &job,
+            &self.found,
+            context.origin,
+            profile,
+        ))
     }
 
     /// The measurement beside the model before and after.

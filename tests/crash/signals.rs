@@ -1,8 +1,8 @@
 //! SIGINT, SIGTERM and SIGHUP end a command and keep its results and the earlier ones.
 
 use crate::locks::{long_run, signal, wait_for_samples};
-use crate::names;
-use crate::scenarios::finished_results;
+use crate::scenarios::{finished_results, succeed};
+use crate::{names, rotordyn};
 use rotordyn::io::hdf5::{COMPLETE, Store};
 use rotordyn::io::results_file::results_state;
 use std::path::Path;
@@ -51,6 +51,36 @@ fn signals_end_a_run_and_keep_the_earlier_one() {
         assert!(std::fs::read(out.join("results_previous.h5")).unwrap() == earlier);
         assert_eq!(state(&out.join("results_previous.h5")), COMPLETE);
     }
+}
+
+/// A fit that takes minutes ends at the first signal, before anything is written.
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_an_update() {
+    let folder = tempfile::tempdir().unwrap();
+    let (measured, out) = (folder.path().join("measured"), folder.path().join("out"));
+    let rig = "models/overhung_rig.toml";
+    let mut modal = rotordyn();
+    modal.args(["modal", rig, "--speed", "0 rpm", "--no-figures", "--quiet", "--out"]).arg(&measured);
+    succeed(modal);
+    let mut update = rotordyn();
+    update.args(["update", rig, "--no-figures", "--out"]).arg(&out);
+    update.arg("--measured").arg(measured.join("results.h5"));
+    for name in ["disc.main.thickness", "disc.pulley.mass", "material.steel.young", "material.steel.density"]
+    {
+        update.args(["--free", name, "--profile", name]);
+    }
+    let mut child = update.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    while !out.exists() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+        assert!(child.try_wait().unwrap().is_none());
+    }
+    signal("INT", child.id());
+    let mut text = String::new();
+    std::io::Read::read_to_string(&mut child.stderr.take().unwrap(), &mut text).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{text}");
+    assert!(text.contains("ended by Ctrl-C"), "{text}");
+    assert!(!out.join("update.h5").exists());
 }
 
 /// Two signals that arrive together: the second does not wait for what the first has requested.

@@ -17,5 +17,6 @@ mod parry_masses;
 mod parry_overlaps;
 mod rapier_cage;
 mod rapier_integration;
+mod ross_campbell;
 mod ross_import;
 mod text_files;

@@ -21,3 +21,4 @@ mod sensitivity;
 mod speed_dependent_bearings;
 mod tables;
 mod tracking;
+mod whirl_tables;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{IdentifyError, ResidualTerms, Settings};
-use rotordyn_linalg::Complex64;
+use rotordyn_linalg::{Complex64, StopRequest};
 use rotordyn_signal::Quantity;
 use rotordyn_signal::record::FrfMatrix;
 
@@ -26,6 +26,8 @@ pub(super) struct Data {
     /// Whether the outputs are the references of the test.
     pub swapped: bool,
     pub residual_terms: ResidualTerms,
+    /// After a request fits return where they are; their result is not used.
+    pub stop: StopRequest,
 }
 
 /// Tolerated deviation from uniform spacing, over the step (rounding of printed digits).
@@ -99,6 +101,7 @@ impl Data {
             input_scale: vec![1.0; inputs],
             swapped,
             residual_terms: settings.residual_terms,
+            stop: settings.stop.clone(),
         };
         data.check(frfs)?;
         data.check_dead_channels(frfs)?;
@@ -192,6 +195,7 @@ impl Data {
             values: (0..self.outputs()).map(|o| (0..self.inputs()).map(|i| rest(o, i)).collect()).collect(),
             output_scale: self.output_scale.clone(),
             input_scale: self.input_scale.clone(),
+            stop: self.stop.clone(),
             ..*self
         }
     }

@@ -1,5 +1,7 @@
 //! Errors of modal identification: what is wrong, and what to do.
 
+use rotordyn_linalg::StopRequest;
+
 /// FRFs or settings from which no modes can be identified.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum IdentifyError {
@@ -39,8 +41,17 @@ pub enum IdentifyError {
         "{duration:.3} s of record are too short for modes from {lowest:.3} Hz on: {needed:.3} s or more are needed for standard errors; record longer, or raise the lower end of the band"
     )]
     ShortRecord { duration: f64, needed: f64, lowest: f64 },
+    #[error("the identification was stopped")]
+    Stopped,
     #[error("{what}: {reason}")]
     Setting { what: &'static str, reason: String },
     #[error("an eigenvalue computation failed: {0}")]
     Eigen(#[from] rotordyn_linalg::eigen::EigenError),
+}
+
+impl IdentifyError {
+    /// [`Self::Stopped`] after a request.
+    pub(crate) fn if_stopped(stop: &StopRequest) -> Result<(), Self> {
+        if stop.is_requested() { Err(Self::Stopped) } else { Ok(()) }
+    }
 }

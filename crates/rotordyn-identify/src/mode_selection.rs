@@ -154,6 +154,9 @@ fn settle(
     let mut at = problem.refine(poles, FINAL_STEPS);
     let mut duplicates = Vec::new();
     loop {
+        if problem.data().stop.is_requested() {
+            return None;
+        }
         while let Some(fault) = remove_faulty_poles(problem, &at, None, settings, dropped) {
             if fault.left.is_empty() {
                 return None;
@@ -208,6 +211,9 @@ fn prune_poles(
     dropped: &mut Vec<DroppedPole>,
 ) -> Option<Vec<Pole>> {
     loop {
+        if problem.data().stop.is_requested() {
+            return None;
+        }
         let at = problem.refine(poles.clone(), TRIAL_STEPS);
         match remove_faulty_poles(problem, &at, Some(&poles), settings, dropped) {
             None => return Some(at.poles),

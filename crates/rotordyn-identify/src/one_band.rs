@@ -35,6 +35,7 @@ pub(super) fn identify_band(
     let mut dropped = Vec::new();
     let selected =
         if poles.is_empty() { None } else { select_modes(&mut data, poles, settings, &mut dropped) };
+    IdentifyError::if_stopped(&settings.stop)?;
     let found = selected.ok_or(IdentifyError::NoMode {
         from: data.band()[0],
         to: data.band()[1],

@@ -16,7 +16,7 @@ use rustfft::FftPlanner;
 
 use super::data::Data;
 use super::{IdentifyError, Settings};
-use rotordyn_linalg::{Complex64, eigen, fft_length};
+use rotordyn_linalg::{Complex64, StopRequest, eigen, fft_length};
 
 /// A pole with its participation vector, of one order.
 #[derive(Clone, Debug)]
@@ -74,6 +74,7 @@ pub(super) struct NormalEquations {
     shift: f64,
     band: [f64; 2],
     largest_damping: f64,
+    stop: StopRequest,
 }
 
 /// Outputs per parallel chunk; chunk sums are added in order: results do not depend on the number of threads.
@@ -153,6 +154,7 @@ impl NormalEquations {
             shift: TAU * data.step * first_line,
             band: data.band(),
             largest_damping: settings.largest_damping,
+            stop: settings.stop.clone(),
         })
     }
 
@@ -165,7 +167,11 @@ impl NormalEquations {
         let lower = regularised_cholesky(block).unpack();
         let mut right = -self.matrix.view((ni, 0), (size, ni)).into_owned();
         lower.solve_lower_triangular_mut(&mut right);
-        orders.par_iter().map(|&n| self.poles_of(n, &lower, &right)).collect()
+        let of = |&n: &usize| {
+            IdentifyError::if_stopped(&self.stop)?;
+            self.poles_of(n, &lower, &right)
+        };
+        orders.par_iter().map(of).collect()
     }
 
     fn poles_of(

@@ -178,6 +178,9 @@ impl<'a> Problem<'a> {
         let least = ROUND_OFF * self.y.norm_squared();
         let mut damping = 1e-3;
         'steps: for _ in 0..steps {
+            if self.data.stop.is_requested() {
+                break;
+            }
             let step = GaussNewtonStep::new(&self.basis, &at);
             while damping < 1e8 {
                 if let Some((poles, expected)) = step.damped_step(&at.poles, damping) {

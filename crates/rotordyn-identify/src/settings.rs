@@ -1,5 +1,6 @@
 //! Settings of a modal identification.
 
+use rotordyn_linalg::StopRequest;
 use rotordyn_signal::Quantity;
 
 /// Residual terms of the fit: what modes outside the band contribute to the FRFs inside it.
@@ -53,6 +54,8 @@ pub struct Settings {
     pub largest_damping: f64,
     /// Decay rate added to all poles by an exponential window \[1/s\], corrected in the result.
     pub added_decay: f64,
+    /// Ends the identification from another thread.
+    pub stop: StopRequest,
 }
 
 impl Default for Settings {
@@ -64,6 +67,7 @@ impl Default for Settings {
             residual_terms: ResidualTerms::Both,
             largest_damping: 0.2,
             added_decay: 0.0,
+            stop: StopRequest::default(),
         }
     }
 }

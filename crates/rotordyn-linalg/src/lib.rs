@@ -21,6 +21,7 @@
 //! | [`refinement`] | residuals in twice the precision, iterative refinement |
 //! | [`small_dense`] | small dense linear systems |
 //! | [`spline`] | interpolating cubic spline |
+//! | `stop` | a request to end a computation ([`StopRequest`]) |
 
 mod arnoldi;
 pub mod band_lu;
@@ -43,6 +44,7 @@ pub mod refinement;
 pub mod small_dense;
 pub mod sparse;
 pub mod spline;
+mod stop;
 
 pub use band_lu::{BandLayout, BandLu, ZeroPivot};
 pub use band_matrix::BandMatrix;
@@ -54,6 +56,7 @@ pub use group_dense::GroupDense;
 pub use layout_cache::LayoutCache;
 pub use piecewise::{Outside, piecewise, piecewise_within};
 pub use sparse::{SparseMatrix, SparseRow, Triplets};
+pub use stop::StopRequest;
 
 pub use num_complex::Complex;
 

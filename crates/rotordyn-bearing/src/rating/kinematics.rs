@@ -8,6 +8,7 @@
 use crate::contact::{ContactPatch, EllipticContact, HertzPair, Race};
 use crate::{BallBearing, BallGeometry, BallInertia, BallLoad, InertiaDecision};
 use serde::{Deserialize, Serialize};
+use std::sync::LazyLock;
 
 /// Motion of one ball at one position.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -170,18 +171,30 @@ const ROLLING_LINES: f64 = 0.347_296_355_333_860_7;
 ///
 /// `radius`: of the deformed surface across rolling R \[m\]; `spin` ω_s and `rolling` ω_roll \[rad/s\].
 pub fn largest_pressure_velocity(patch: &ContactPatch, radius: f64, spin: f64, rolling: f64) -> f64 {
-    const RAYS: usize = 90;
     const RINGS: usize = 60;
     let ContactPatch { semi_major: a, semi_minor: b, maximum_pressure, .. } = *patch;
-    let value = |ring: usize, ray: usize| {
+    let mut largest = 0.0f64;
+    for ring in 0..RINGS {
         let share = ring as f64 / RINGS as f64;
-        let (sin, cos) = (std::f64::consts::TAU * ray as f64 / RAYS as f64).sin_cos();
-        let (x, y) = (b * share * cos, a * share * sin);
-        let along = rolling * ((ROLLING_LINES * a).powi(2) - y * y) / (2.0 * radius) + spin * y;
-        maximum_pressure * (1.0 - share * share).max(0.0).sqrt() * along.hypot(spin * x)
-    };
-    (0..RINGS).flat_map(|ring| (0..RAYS).map(move |ray| value(ring, ray))).fold(0.0, f64::max)
+        let pressure = maximum_pressure * (1.0 - share * share).max(0.0).sqrt();
+        for (sin, cos) in RAY_DIRECTIONS.iter() {
+            let (x, y) = (b * share * cos, a * share * sin);
+            let along = rolling * ((ROLLING_LINES * a).powi(2) - y * y) / (2.0 * radius) + spin * y;
+            // The sum of both components is no less than the sliding speed, round-off aside, and soon told.
+            if ABOVE_ROUND_OFF * pressure * (along.abs() + (spin * x).abs()) > largest {
+                largest = largest.max(pressure * along.hypot(spin * x));
+            }
+        }
+    }
+    largest
 }
+
+const RAYS: usize = 90;
+const ABOVE_ROUND_OFF: f64 = 1.0 + 1e-12;
+
+/// Sine and cosine of rays around a contact ellipse.
+static RAY_DIRECTIONS: LazyLock<[(f64, f64); RAYS]> =
+    LazyLock::new(|| std::array::from_fn(|ray| (std::f64::consts::TAU * ray as f64 / RAYS as f64).sin_cos()));
 
 /// Advance of every ball against the mean orbital speed of its row, over the position around the bearing \[rad\].
 ///

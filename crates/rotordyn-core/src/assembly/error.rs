@@ -72,6 +72,8 @@ pub enum PhysicsError {
     TooSlender { motion: String, slenderness: f64, shaft: String },
     #[error("no derivative with respect to the parameter: {reason}")]
     NoDerivative { reason: String },
+    #[error("the computation was stopped")]
+    Stopped,
     #[error("eigenvalue computation failed at {speed_rpm:.1} rpm: {reason}")]
     Eigen { speed_rpm: f64, reason: String },
 }

@@ -19,7 +19,7 @@ use crate::transient::reduction::{Reduction, reduce};
 use crate::transient::run::{Report, RunSnapshot, Sample, Settings, resume, run};
 use crate::warning::Warning;
 use rotordyn_bearing::{BearingElement, SiteTangent};
-use rotordyn_linalg::{SparseMatrix, krylov};
+use rotordyn_linalg::{SparseMatrix, StopRequest, krylov};
 
 /// An assembled model with the static equilibrium about which linear studies are linearised.
 pub struct Machine {
@@ -36,6 +36,8 @@ pub struct Machine {
     inertia: SpeedCache<Vec<InertiaUse>>,
     /// Motions that nothing constrains at a speed.
     rigid_body_motions: SpeedCache<Vec<String>>,
+    /// Ends studies from another thread, before the next speed or frequency.
+    pub stop: StopRequest,
 }
 
 impl Machine {
@@ -60,6 +62,7 @@ impl Machine {
             tangents: SpeedCache::new(),
             inertia: SpeedCache::new(),
             rigid_body_motions: SpeedCache::new(),
+            stop: StopRequest::default(),
         })
     }
 
@@ -76,7 +79,11 @@ impl Machine {
         if !is_undecided(&self.model) {
             return Ok(None);
         }
-        let decide = || Self::new(with_decisions(&self.model, &self.ball_inertia(speeds))).map(Arc::new);
+        let decide = || {
+            let mut machine = Self::new(with_decisions(&self.model, &self.ball_inertia(speeds)))?;
+            machine.stop = self.stop.clone();
+            Ok(Arc::new(machine))
+        };
         self.decided.at(highest(speeds), decide).map(Some)
     }
 
@@ -121,8 +128,11 @@ impl Machine {
     /// Without speed dependence the equilibrium at standstill is used for all speeds.
     ///
     /// # Errors
-    /// No equilibrium at that speed.
+    /// No equilibrium at that speed, or a request to stop.
     pub fn tangents(&self, speed: f64, speed_dependent: bool) -> Result<Vec<SiteTangent>, PhysicsError> {
+        if self.stop.is_requested() {
+            return Err(PhysicsError::Stopped);
+        }
         if speed_dependent && let Some(machine) = self.decided(&[speed])? {
             return machine.tangents(speed, speed_dependent);
         }
@@ -160,14 +170,33 @@ impl Machine {
         speed: f64,
         whirl: f64,
     ) -> Result<Option<LinearSystem>, PhysicsError> {
-        let own: Vec<_> =
-            self.bearings.iter().map(|element| element.tangent_at_whirl(speed, whirl)).collect();
-        if own.iter().all(Option::is_none) {
+        if !self.has_whirl_tables() {
             return Ok(None);
         }
-        let tangents = self.tangents(speed, true)?.into_iter().zip(own);
-        let tangents: Vec<_> = tangents.map(|(tangent, own)| own.unwrap_or(tangent)).collect();
-        LinearSystem::new(&self.assembly, &tangents, speed).map(Some)
+        self.linear_system_with_whirl(&self.tangents(speed, true)?, speed, whirl).map(Some)
+    }
+
+    /// Whether a bearing has coefficients over whirl frequency.
+    pub(super) fn has_whirl_tables(&self) -> bool {
+        self.bearings.iter().any(|element| element.tangent_at_whirl(0.0, 0.0).is_some())
+    }
+
+    /// The equations of motion at a speed for motions of one frequency \[rad/s\]: only bearings with coefficients over it are
+    /// evaluated, the others have the tangents at that speed.
+    ///
+    /// # Errors
+    /// As [`LinearSystem::new`].
+    pub(super) fn linear_system_with_whirl(
+        &self,
+        tangents: &[SiteTangent],
+        speed: f64,
+        whirl: f64,
+    ) -> Result<LinearSystem, PhysicsError> {
+        let own = |(element, tangent): (&Arc<dyn BearingElement>, &SiteTangent)| {
+            element.tangent_at_whirl(speed, whirl).unwrap_or(*tangent)
+        };
+        let tangents: Vec<_> = self.bearings.iter().zip(tangents).map(own).collect();
+        LinearSystem::new(&self.assembly, &tangents, speed)
     }
 
     /// Motions that nothing constrains at a speed, in words: rigid-body modes at 0 Hz.

@@ -16,6 +16,7 @@ use crate::model::{Probe, Quantity};
 use crate::results::{
     DiscOrbit, FrfResult, ResponsePeak, UnbalanceChannel, UnbalanceResult, UndampedPeak, is_rotation, unit_of,
 };
+use rayon::prelude::*;
 use rotordyn_linalg::{Complex64, SparseRow};
 use std::f64::consts::TAU;
 
@@ -40,11 +41,8 @@ impl Machine {
         let highest = f.iter().copied().fold(0.0, f64::max);
         let poles = if highest > 0.0 { frf_poles(&self.assembly, &system, highest)? } else { Vec::new() };
         let evaluate = |hz: &[f64]| -> Result<Vec<Vec<Complex64>>, PhysicsError> {
-            if self.linear_system_at_whirl(study.speed, 0.0)?.is_some() {
-                return hz
-                    .iter()
-                    .map(|&hz| self.frf_at_whirl(study.speed, hz, [&excitations, &responses], q))
-                    .collect();
+            if self.has_whirl_tables() {
+                return self.frf_at_whirl(study.speed, hz, [&excitations, &responses], q);
             }
             let found = frf::frf(&self.assembly, &system, hz, &excitations, &responses, q)?;
             Ok((0..hz.len()).map(|k| found.values.iter().flatten().map(|h| h[k]).collect()).collect())
@@ -90,20 +88,21 @@ impl Machine {
         })
     }
 
-    /// The FRFs of all responses and excitations at one frequency, with the bearings at that whirl frequency.
+    /// The FRFs of all responses and excitations at every frequency \[Hz\], with the bearings at that whirl frequency.
     fn frf_at_whirl(
         &self,
         speed: f64,
-        hz: f64,
+        frequencies: &[f64],
         [excitations, responses]: [&[SparseRow]; 2],
         quantity: Quantity,
-    ) -> Result<Vec<Complex64>, PhysicsError> {
-        let system = match self.linear_system_at_whirl(speed, hz * TAU)? {
-            Some(system) => system,
-            None => self.linear_system(speed)?,
+    ) -> Result<Vec<Vec<Complex64>>, PhysicsError> {
+        let tangents = self.tangents(speed, true)?;
+        let at = |&hz: &f64| {
+            let system = self.linear_system_with_whirl(&tangents, speed, hz * TAU)?;
+            let found = frf::frf(&self.assembly, &system, &[hz], excitations, responses, quantity)?;
+            Ok(found.values.iter().flatten().map(|h| h[0]).collect())
         };
-        let found = frf::frf(&self.assembly, &system, &[hz], excitations, responses, quantity)?;
-        Ok(found.values.iter().flatten().map(|h| h[0]).collect())
+        frequencies.par_iter().map(at).collect()
     }
 
     /// Steady unbalance response over speed.

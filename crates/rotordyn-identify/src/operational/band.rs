@@ -26,6 +26,7 @@ pub(super) fn identify_band(
     record: &OutputRecord,
     settings: &OperationalSettings,
 ) -> Result<OperationalModes, IdentifyError> {
+    let unless_stopped = || IdentifyError::if_stopped(&settings.stop);
     let whole = Prepared::new(record, settings)?;
     let first = without_harmonics(whole.clone(), settings);
     // The harmonics are fitted again without a transient at the start, whose remains would look like some.
@@ -35,6 +36,7 @@ pub(super) fn identify_band(
         0 => first,
         start => without_harmonics(whole.without_start(start), settings),
     };
+    unless_stopped()?;
     let impulsive = impulsive_warning(&data, record);
     harmonics.extend(lines::sines(&data));
     harmonics.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
@@ -55,11 +57,14 @@ pub(super) fn identify_band(
             lowest: data.band[0],
         });
     }
+    unless_stopped()?;
     let correlations = correlations(&data, &references, lags, blocks);
+    unless_stopped()?;
     let space = Subspace::new(&hankel(&correlations.mean, rows), channels, inputs, data.rate)?;
     let highest = highest.min(space.s.len().saturating_sub(1) & !1);
     let orders: Vec<usize> = (1..=highest / 2).map(|k| 2 * k).collect();
     let candidates = space.candidates(&orders, data.band, settings.largest_damping)?;
+    unless_stopped()?;
     let diagram = stabilisation::diagram(&candidates, &orders);
     let search = Search {
         data: &data,
@@ -72,6 +77,7 @@ pub(super) fn identify_band(
         dofs: &record.dofs,
     };
     let mut found = select(&search)?;
+    unless_stopped()?;
     let channels_of_spectrum = independent_channels(&data, fdd::MAX_CHANNELS);
     let spectrum = fdd::decomposition(&data, &channels_of_spectrum, &harmonics)?;
     note_possible_pairs(&spectrum, &mut found.modes);

@@ -47,6 +47,7 @@ pub fn identify_operational(
 ) -> Result<OperationalModes, IdentifyError> {
     let mut found = band::identify_band(record, settings)?;
     parts::resolve(record, settings, &mut found);
+    IdentifyError::if_stopped(&settings.stop)?;
     found.warnings.extend(parts::unexplained_peaks(&found).into_iter().map(|peak| {
         format!(
             "the spectrum has a peak of {:.0} dB at {:.3} Hz that no mode explains: too short a record for it, a peak of the \

@@ -1,5 +1,6 @@
 //! Input of an output-only identification: the record, the shaft, the settings.
 
+use rotordyn_linalg::StopRequest;
 use rotordyn_signal::Quantity;
 use rotordyn_signal::record::Dof;
 
@@ -47,6 +48,8 @@ pub struct OperationalSettings {
     pub orders: Vec<f64>,
     /// Relative range around a steady speed in which its harmonics are looked for.
     pub speed_tolerance: f64,
+    /// Ends the identification from another thread.
+    pub stop: StopRequest,
 }
 
 impl Default for OperationalSettings {
@@ -60,6 +63,7 @@ impl Default for OperationalSettings {
             shaft: Shaft::Unknown,
             orders: Vec::new(),
             speed_tolerance: 0.005,
+            stop: StopRequest::default(),
         }
     }
 }

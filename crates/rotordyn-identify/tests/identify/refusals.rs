@@ -64,3 +64,9 @@ fn errors_contain_hints() {
         assert!(parts.iter().all(|part| text.contains(part)), "{parts:?} is not in\n{text}");
     }
 }
+
+#[test]
+fn a_request_ends_the_identification() {
+    let message = error_message(|_, settings| settings.stop.request());
+    assert_eq!(message, "the identification was stopped");
+}

@@ -35,3 +35,8 @@ fn errors_contain_hints() {
         assert!(parts.iter().all(|part| text.contains(part)), "{parts:?} is not in\n{text}");
     }
 }
+
+#[test]
+fn a_request_ends_the_identification() {
+    assert_eq!(message(|_, settings| settings.stop.request()), "the identification was stopped");
+}

@@ -13,7 +13,7 @@ use crate::machine_records;
 use crate::measured;
 use rotordyn_core::model::Model;
 use rotordyn_identify::{self as identify, ModalIdentification};
-use rotordyn_linalg::Complex64;
+use rotordyn_linalg::{Complex64, StopRequest};
 use rotordyn_signal::record::{Analysis, Dof, FrfMatrix, Kind, MeasuredData, Shape};
 use rotordyn_update::UpdateError;
 use rotordyn_update::target::{Sensor, Target, TargetFrfs, TargetMode, modes_of, sensors};
@@ -28,6 +28,8 @@ pub struct ReadSettings<'a> {
     pub speed: Option<f64>,
     /// Limits for reading the file; the usual ones if `None`.
     pub limits: Option<&'a Limits>,
+    /// Ends the identification of FRFs from another thread.
+    pub stop: Option<&'a StopRequest>,
 }
 
 /// Test data of a file, and warnings.
@@ -157,7 +159,8 @@ fn of_shapes(measured: &MeasuredData, reading: &ReadSettings, model: &Model) -> 
 fn of_frfs(measured: &MeasuredData, reading: &ReadSettings, model: &Model) -> Result<TestData, Error> {
     let mut matrix = measured.frf_matrix()?;
     let zero_response_warnings = drop_zero_responses(&mut matrix);
-    let settings = identify::Settings { band: reading.band, ..identify::Settings::default() };
+    let stop = reading.stop.cloned().unwrap_or_default();
+    let settings = identify::Settings { band: reading.band, stop, ..identify::Settings::default() };
     let found = identify::identify(&matrix, &settings)?;
     let speeds: Vec<f64> = measured.records.iter().filter_map(|r| r.speed_rpm).collect();
     let speed = reading.speed.or(speeds.first().map(|rpm| rpm * TAU / 60.0)).unwrap_or(0.0);

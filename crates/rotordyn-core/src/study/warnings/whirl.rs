@@ -18,7 +18,7 @@ impl Machine {
     /// Modes that are others with the coefficients at their own frequency than at that of rotation, which they take: the one
     /// that changes most of each study.
     pub(super) fn whirl_frequency_warnings(&self, results: &Results) -> Vec<Warning> {
-        if !matches!(self.linear_system_at_whirl(0.0, 0.0), Ok(Some(_))) {
+        if !self.has_whirl_tables() {
             return Vec::new();
         }
         let modal = results.modal.iter().flat_map(|at| at.modes.iter().map(|mode| (at.speed, mode)));
