@@ -54,3 +54,55 @@ pub(super) fn joint_evidence(
         side_bands: sum(&|l| l.modulation.is_some() && l.harmonic <= LAST_WITH_SIDE_BANDS),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::bearing_lines::LineSettings;
+    use super::super::super::spectrum::Spectrum;
+    use super::*;
+
+    const STEP: f64 = 0.2;
+
+    /// Amplitudes of noise, √(−ln u), with lines of 2.5 times its mean square at harmonics 2, 3 and 4 of `base`.
+    fn spectrum(seed: u64, base: Option<f64>) -> Spectrum {
+        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+        let mut noise = || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (-((state >> 11) as f64 / (1u64 << 53) as f64).max(1e-12).ln()).sqrt()
+        };
+        let mut values: Vec<f64> = (0..2600).map(|_| noise()).collect();
+        for harmonic in 2..=4 {
+            if let Some(base) = base {
+                let bin = (f64::from(harmonic) * base / STEP).round() as usize;
+                values[bin] = (values[bin].powi(2) + 2.5).sqrt();
+            }
+        }
+        let frequencies = (0..values.len()).map(|k| k as f64 * STEP).collect();
+        Spectrum { frequencies, values, noise_bandwidth_hz: 1.5 * STEP }
+    }
+
+    /// Three lines that are too weak to stand count together; noise does not.
+    #[test]
+    fn weak_lines_at_the_places_of_a_family_count_together() {
+        let rates = DefectFrequencies { shaft: 20.3, cage: 7.9, outer: 71.2, inner: 111.5, ball: 47.7 };
+        let settings = LineSettings::default();
+        let known = KnownLines { shaft: rates.shaft, hz_per_unit: Some(1.0), step: STEP };
+        let mean = |part: BearingPart, with_lines: bool| {
+            let of = |seed: u64| {
+                let plain = LineSpectrum::new(&spectrum(seed, None), rates.shaft, Some(1.0));
+                let fit = PartFit::new(&plain, part, &rates, &settings);
+                let other = spectrum(seed + 1000, with_lines.then_some(fit.base));
+                joint_evidence(&fit, &LineSpectrum::new(&other, rates.shaft, Some(1.0)), &rates, &known)
+            };
+            let all: Vec<JointEvidence> = (1..=60).map(of).collect();
+            let of = |value: fn(&JointEvidence) -> f64| all.iter().map(value).sum::<f64>() / 60.0;
+            [of(|e| e.first), of(|e| e.harmonics), of(|e| e.side_bands)]
+        };
+        let [noise, lines] = [false, true].map(|with_lines| mean(BearingPart::OuterRace, with_lines));
+        assert!(noise[1] < 0.7 && lines[1] > noise[1] + 0.7, "{noise:?} {lines:?}");
+        assert!((noise[0] - lines[0]).abs() < 0.1 && lines[2] == 0.0, "{noise:?} {lines:?}");
+        assert_eq!(mean(BearingPart::Cage, true), [0.0; 3]);
+    }
+}
