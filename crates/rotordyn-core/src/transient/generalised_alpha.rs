@@ -81,7 +81,7 @@ impl GeneralisedAlpha {
     /// Advances `state` by `step`; `spin` is the shaft's motion at the end of the step, found here under a torque drive.
     ///
     /// (1−α_m) a₁ + α_m a₀ = (1−α_f) ẍ₁ + α_f ẍ₀ with M̂ ẍ = p + Wᵀ f − (C+ΩG) v − (K+…) x at both ends (M̂ = 1 unless the
-    /// inertias are fitted to the step, [`Scheme::inertia`]),
+    /// inertias are fitted to the step),
     /// x₁ = x₀ + h v₀ + h² ((½−β) a₀ + β a₁), v₁ = v₀ + h ((1−γ) a₀ + γ a₁).
     ///
     /// # Errors
