@@ -274,7 +274,7 @@ impl Svg {
         let _ = writeln!(
             self.body,
             "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" \
-             style=\"image-rendering:smooth\" href=\"data:image/png;base64,{data}\"/>",
+             href=\"data:image/png;base64,{data}\"/>",
             number(x),
             number(y),
             number(w),
