@@ -2,12 +2,12 @@
 //! elliptic orbits.
 
 use crate::agree;
-use crate::machine::{disc, element, shaft};
+use crate::machine::jeffcott;
 use nalgebra::Complex;
 use rotordyn::analysis::frf::frf;
 use rotordyn::analysis::unbalance::Orbit;
 use rotordyn::contact::Lubricant;
-use rotordyn::element::{Anchor, Bushing, Joint, ShearCoefficient};
+use rotordyn::element::Anchor;
 use rotordyn::model::study::{Integrator, RunUpStudy};
 use rotordyn::model::{Load, LoadFactor, Options, Probe, Quantity, SpeedProfile, load};
 use rotordyn::study::Machine;
@@ -225,21 +225,8 @@ fn random_vibration_of_one_mass() {
 #[test]
 fn unstable_forward_whirl_due_to_internal_damping() {
     let (eta, external, mass, speed, force) = (4e-4, 20.0, 10.0, 500.0, 30.0);
-    let mut light = element(0.1, 0.02, 0.02);
-    light.material.density = 1e-3;
-    light.shear = ShearCoefficient::Rigid;
-    light.internal_viscous = eta;
-    let mut model = shaft(vec![light; 8]);
-    model.gravity = [0.0; 3];
-    model.discs.push(disc(4, mass, 1e-6, 1e-6));
-    for (node, axial) in [(0, true), (8, false)] {
-        let locked = [true, true, axial, false, false, axial];
-        model.joints.push(Joint { name: "pin".into(), a: Anchor::node(node), b: Anchor::GROUND, locked });
-    }
-    let mut damping = [[0.0; 6]; 6];
-    (damping[0][0], damping[1][1]) = (external, external);
-    let (a, b, stiffness) = (Anchor::node(4), Anchor::GROUND, [[0.0; 6]; 6]);
-    model.bushings.push(Bushing { name: "external_damper".into(), a, b, stiffness, damping });
+    let mut model = jeffcott(mass, eta, external);
+    let a = Anchor::node(4);
     let factor = LoadFactor::Table(vec![[0.0, 1.0], [10.0, 1.0]]);
     model.loads.push(Load { name: "step".into(), at: a, force: [force, 0.0, 0.0, 0.0, 0.0, 0.0], factor });
     for k in 0..2 {

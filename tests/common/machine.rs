@@ -1,6 +1,6 @@
 //! Small machines built in code.
 
-use rotordyn::element::{Disc, Material, ShaftElement, ShearCoefficient};
+use rotordyn::element::{Anchor, Bushing, Disc, Joint, Material, ShaftElement, ShearCoefficient};
 use rotordyn::model::{Damping, Drive, Model, SpeedProfile};
 
 pub fn steel() -> Material {
@@ -66,4 +66,25 @@ pub fn shaft(elements: Vec<ShaftElement>) -> Model {
         probes: Vec::new(),
         studies: Default::default(),
     }
+}
+
+/// Jeffcott rotor: a disc on the middle (node 4) of a massless shaft of 800 mm and 20 mm on pins, without gravity; η the shaft's
+/// loss factor over frequency \[s\], c an external damper at the disc \[N s/m\].
+pub fn jeffcott(mass: f64, eta: f64, external: f64) -> Model {
+    let mut light = element(0.1, 0.02, 0.02);
+    light.material.density = 1e-3;
+    light.shear = ShearCoefficient::Rigid;
+    light.internal_viscous = eta;
+    let mut model = shaft(vec![light; 8]);
+    model.gravity = [0.0; 3];
+    model.discs.push(disc(4, mass, 1e-6, 1e-6));
+    for (node, axial) in [(0, true), (8, false)] {
+        let locked = [true, true, axial, false, false, axial];
+        model.joints.push(Joint { name: "pin".into(), a: Anchor::node(node), b: Anchor::GROUND, locked });
+    }
+    let mut damping = [[0.0; 6]; 6];
+    (damping[0][0], damping[1][1]) = (external, external);
+    let (a, b, stiffness) = (Anchor::node(4), Anchor::GROUND, [[0.0; 6]; 6]);
+    model.bushings.push(Bushing { name: "external_damper".into(), a, b, stiffness, damping });
+    model
 }

@@ -3,11 +3,11 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
-use crate::machine::{disc, element, shaft};
+use crate::machine::jeffcott;
 use crate::rig::variant;
 use nalgebra::{DMatrix, DVector};
 use rotordyn::bearing::{Bearing, Cage};
-use rotordyn::element::{Anchor, Bushing, Joint, ShearCoefficient};
+use rotordyn::element::Anchor;
 use rotordyn::model::study::{Integrator, RunUpStudy};
 use rotordyn::model::{Probe, Quantity, SpeedProfile, Unbalance};
 use rotordyn::study::Machine;
@@ -135,20 +135,8 @@ fn fitted_inertias_in_forced_vibration() {
     let external = 2.0 * 0.02 * mass * natural;
     for ratio in [0.5, 2.0, 5.0] {
         let speed = ratio * natural;
-        let mut light = element(0.1, 0.02, 0.02);
-        light.material.density = 1e-3;
-        light.shear = ShearCoefficient::Rigid;
-        let mut model = shaft(vec![light; 8]);
-        model.gravity = [0.0; 3];
-        model.discs.push(disc(4, mass, 1e-6, 1e-6));
-        for (node, axial) in [(0, true), (8, false)] {
-            let locked = [true, true, axial, false, false, axial];
-            model.joints.push(Joint { name: "pin".into(), a: Anchor::node(node), b: Anchor::GROUND, locked });
-        }
-        let mut damping = [[0.0; 6]; 6];
-        (damping[0][0], damping[1][1]) = (external, external);
-        let (a, b, stiffness) = (Anchor::node(4), Anchor::GROUND, [[0.0; 6]; 6]);
-        model.bushings.push(Bushing { name: "damper".into(), a, b, stiffness, damping });
+        let mut model = jeffcott(mass, 0.0, external);
+        let a = Anchor::node(4);
         model.unbalances.push(Unbalance { name: "u".into(), node: 4, magnitude: unbalance, phase: 0.0 });
         for quantity in [Quantity::Displacement, Quantity::Acceleration] {
             let direction = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0];

@@ -3,6 +3,7 @@
 #[path = "../../crates/rotordyn-bearing/tests/common/bearing.rs"]
 mod bearing;
 #[path = "../common/machine.rs"]
+#[allow(dead_code)]
 mod machine;
 #[path = "../common/rig.rs"]
 mod rig;

@@ -180,7 +180,7 @@ pub fn largest_pressure_velocity(patch: &ContactPatch, radius: f64, spin: f64, r
         for (sin, cos) in RAY_DIRECTIONS.iter() {
             let (x, y) = (b * share * cos, a * share * sin);
             let along = rolling * ((ROLLING_LINES * a).powi(2) - y * y) / (2.0 * radius) + spin * y;
-            // The sum of both components is no less than the sliding speed, round-off aside, and soon told.
+            // The sum of both components is an upper bound of the sliding speed, and takes no root.
             if ABOVE_ROUND_OFF * pressure * (along.abs() + (spin * x).abs()) > largest {
                 largest = largest.max(pressure * along.hypot(spin * x));
             }
@@ -189,7 +189,9 @@ pub fn largest_pressure_velocity(patch: &ContactPatch, radius: f64, spin: f64, r
     largest
 }
 
+/// Rays around the contact ellipse.
 const RAYS: usize = 90;
+/// Factor that keeps an upper bound one in spite of round-off.
 const ABOVE_ROUND_OFF: f64 = 1.0 + 1e-12;
 
 /// Sine and cosine of rays around a contact ellipse.
