@@ -107,7 +107,7 @@ fn cuts(machine: &Machine, integrator: Integrator, step: f64) -> Option<Cuts> {
     if report.end != rotordyn::transient::run::End::Complete {
         return None;
     }
-    let found = machine.orders(&orders, &recorder.history).ok()?;
+    let found = machine.orders(&orders, &recorder.into_history()).ok()?;
     let (labels, rms) =
         found.first()?.cuts.iter().map(|(line, cut)| (line.label.clone(), cut.rms.clone())).unzip();
     Some(Cuts { labels, rms, seconds })

@@ -102,7 +102,7 @@ fn run(prepared: &mut Prepared, watch: &mut Watch) -> Result<(), Stop> {
         recorder.record(sample);
         watch.look(sample.state.time, profile.duration(), sample.state.spin.speed)
     });
-    let history = recorder.history;
+    let history = recorder.into_history();
     if let End::Failed(error) = &report.end {
         return Err(error.clone().into());
     }

@@ -12,7 +12,9 @@ use rotordyn::error::Error;
 use rotordyn::io::checkpoint_file;
 use rotordyn::io::results_file::UNFINISHED_PREVIOUS;
 use rotordyn::results::Motion;
-use rotordyn::study::{Checkpoints, FinishedValues, MotionSnapshot, Results, SettledSnapshot};
+use rotordyn::study::{
+    Checkpoints, FinishedValues, MotionSnapshot, RecorderSnapshot, Results, SettledSnapshot,
+};
 use rotordyn::transient::run::RunSnapshot;
 use rotordyn::transient::steady::SteadySnapshot;
 use rotordyn::warning::Warning;
@@ -58,6 +60,7 @@ pub struct RunUpSnapshot {
     /// States for the error of the step.
     pub states: Checkpoints,
     pub motion: Option<MotionSnapshot>,
+    pub recorder: RecorderSnapshot,
 }
 
 impl Running {

@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use rotordyn::error::Error;
 use rotordyn::io::budget::Limits;
-use rotordyn::io::hdf5::{COMPLETE, RunFormat};
+use rotordyn::io::hdf5::{COMPLETE, ChannelStream, RunFormat};
 use rotordyn::io::results_file;
 use rotordyn::model::Drive;
 use rotordyn::model::study::RunUpStudy;
 use rotordyn::results::{CagePhaseBand, History, RollingCageComparison, RunSummary, RunUpResult};
-use rotordyn::study::{Checkpoints, MotionRecorder, Recorder, StudyError};
+use rotordyn::study::{Checkpoints, MotionRecorder, RecordedSample, Recorder, StudyError};
 use rotordyn::transient::run::{End, Sample};
 use rotordyn::warning::{Code, Warning};
 
@@ -55,10 +55,11 @@ impl Job<'_> {
         };
         let snapshot = match (resumed, &self.checkpoints) {
             (Some(found), Some(writer)) => {
-                let (path, count) = (writer.samples_path(), found.run.index() + 1);
+                let (path, count) = (writer.samples_path(), found.run.index() + 1 - found.recorder.waiting());
                 resumed_run::replay(&path, count, &mut stream)?;
                 checkpoints = found.states;
                 motion.iter_mut().zip(found.motion).try_for_each(|(own, kept)| own.resume(kept))?;
+                recorder.resume(found.recorder);
                 last = (found.run.time(), rpm(found.run.speed()));
                 Some(found.run)
             }
@@ -76,7 +77,7 @@ impl Job<'_> {
             if let Some(motion) = &mut motion {
                 motion.observe(sample);
             }
-            disk = stream.push(time, spin.angle, spin.speed, recorder.record(sample));
+            disk = write(&mut stream, recorder.record(sample));
             if sample.index.is_multiple_of(64) {
                 bar.set_position((1e3 * time) as u64);
                 bar.set_message(format!("{:.0} rpm", last.1));
@@ -96,7 +97,12 @@ impl Job<'_> {
                 if disk.is_ok() {
                     let (run, states) = (sample.snapshot(), checkpoints.clone());
                     let motion = motion.as_ref().map(MotionRecorder::snapshot);
-                    let running = Running::RunUp(Box::new(RunUpSnapshot { run, states, motion }));
+                    let running = Running::RunUp(Box::new(RunUpSnapshot {
+                        run,
+                        states,
+                        motion,
+                        recorder: recorder.snapshot(),
+                    }));
                     writer.write(Some(&running), self.terminal);
                 }
             }
@@ -107,6 +113,7 @@ impl Job<'_> {
             Some(snapshot) => machine.resume_run_up(settings, &reduction, snapshot, observe),
         };
         bar.finish_and_clear();
+        let disk = disk.and_then(|()| write(&mut stream, recorder.finish()));
         let failure = match (disk, &report.end) {
             (Err(error), _) => Some(error.into()),
             (Ok(()), End::Complete) => None,
@@ -229,4 +236,9 @@ impl Job<'_> {
         run_up_tables::cage_phases(self.terminal, &band);
         Ok(Some(band))
     }
+}
+
+/// Writes complete samples to the file.
+fn write(stream: &mut ChannelStream, samples: &[RecordedSample]) -> Result<(), Error> {
+    samples.iter().try_for_each(|sample| stream.push(sample.time, sample.angle, sample.speed, &sample.values))
 }

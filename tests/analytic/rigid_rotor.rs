@@ -204,7 +204,7 @@ speeds = "500 rad/s"
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
-    let history = recorder.history;
+    let history = recorder.into_history();
     let x = history.channel("x").unwrap().values.in_memory().unwrap();
     let late = &x[x.len() * 3 / 4..];
     // 20 revolutions: the RMS is independent of the start phase.

@@ -32,7 +32,7 @@ pub static RIG: LazyLock<(Machine, Results)> = LazyLock::new(|| {
         recorder.record(sample);
         ControlFlow::Continue(())
     });
-    let history = recorder.history;
+    let history = recorder.into_history();
     let mut results = Results {
         equilibrium: Some(machine.equilibrium(&studies.equilibrium.unwrap()).unwrap()),
         modal: machine.modal(&studies.modal.unwrap()).unwrap(),

@@ -368,9 +368,9 @@ fn classes_of_motion_for_other_parameters() {
         assert!(lines.at(0, 0.5 * balls as f64 * CAGE) < 0.2e-6);
     }
     let undamped = [("bushing.damper.c_x", "0 N s/m"), ("bushing.damper.c_y", "1e-9 N s/m")];
-    // Chaotic: over the reference's two seconds the ball-pass line is the higher one (1.3 um, the other 0.9
-    // um).
-    let lines = Lines::of(&machine("balls_6", &undamped), [2.0, 2.0]);
+    // Chaotic: the ball-pass line is the highest. Over the reference's two seconds it depends on round-off whether one of the
+    // broad band about half of it is higher; that band falls with the bins of a longer record.
+    let lines = Lines::of(&machine("balls_6", &undamped), [2.0, 8.0]);
     near(lines.main_of_ball_pass(0, 6), 1.0);
     // Broadband: the highest of the 1 Hz bins contains only a part of the power.
     let (_, lines) = main(9, &undamped, 0);

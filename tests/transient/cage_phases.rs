@@ -97,7 +97,7 @@ fn run(machine: &Machine) -> (History, Report, Option<StepError>) {
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
-    let history = recorder.history;
+    let history = recorder.into_history();
     let orders = machine.checked_orders();
     let error = machine.step_error(&study, &reduction, &orders, (&checkpoints, &history, &report)).unwrap();
     (history, report, error)

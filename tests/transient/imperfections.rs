@@ -71,7 +71,7 @@ fn run(inertia: bool, step: f64, bearing_a: &str) -> (History, Report) {
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
-    (recorder.history, report)
+    (recorder.into_history(), report)
 }
 
 const ZERO_SIZE: &str = r#"

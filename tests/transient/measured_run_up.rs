@@ -148,7 +148,7 @@ fn run(model: Model) -> History {
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, rotordyn::transient::run::End::Complete);
-    recorder.history
+    recorder.into_history()
 }
 
 /// Half-energy bandwidth: width of the fewest bins that contain half of the energy within ±`reach` (relative) of

@@ -5,7 +5,7 @@ use rotordyn::io::saved_results;
 use rotordyn::model::study::{Integrator, MotionSettings, RunUpStudy};
 use rotordyn::model::{Model, Options, load};
 use rotordyn::results::{History, Motion, StepError};
-use rotordyn::study::{Checkpoints, Machine, MotionRecorder, MotionSnapshot, Recorder};
+use rotordyn::study::{Checkpoints, Machine, MotionRecorder, MotionSnapshot, Recorder, RecorderSnapshot};
 use rotordyn::transient::run::{End, Report, RunSnapshot};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::ops::ControlFlow;
@@ -59,6 +59,7 @@ struct Stopped {
     run: RunSnapshot,
     states: Checkpoints,
     motion: Option<MotionSnapshot>,
+    recorder: RecorderSnapshot,
     history: History,
 }
 
@@ -89,6 +90,7 @@ fn run_to(
         let stopped = *stopped;
         (snapshot, states) = (Some(stopped.run), stopped.states);
         recorder.history = stopped.history;
+        recorder.resume(stopped.recorder);
         motion.iter_mut().zip(stopped.motion).for_each(|(own, stored)| own.resume(stored).unwrap());
     }
     let mut taken = None;
@@ -97,7 +99,7 @@ fn run_to(
         motion.iter_mut().for_each(|motion| motion.observe(sample));
         recorder.record(sample);
         if stop == Some(sample.index) {
-            taken = Some(sample.snapshot());
+            taken = Some((sample.snapshot(), recorder.snapshot()));
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
@@ -106,12 +108,12 @@ fn run_to(
         None => machine.run_up(study, &reduction, observe),
         Some(snapshot) => machine.resume_run_up(study, &reduction, snapshot, observe),
     };
-    let history = recorder.history;
-    if let Some(run) = taken {
+    if let Some((run, snapshot)) = taken {
         assert_eq!(report.end, End::Stopped);
         let motion = motion.map(|motion| motion.snapshot());
-        return Err(Box::new(Stopped { run, states, motion, history }));
+        return Err(Box::new(Stopped { run, states, motion, recorder: snapshot, history: recorder.history }));
     }
+    let history = recorder.into_history();
     assert_ne!(report.end, End::Stopped);
     let step_error = machine.step_error(study, &reduction, &[1.0], (&states, &history, &report)).unwrap();
     Ok(Whole { history, report, motion: motion.map(|motion| motion.motion), step_error })

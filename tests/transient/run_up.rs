@@ -20,7 +20,7 @@ fn run(machine: &Machine, step: f64) -> (History, Report) {
         ControlFlow::Continue(())
     });
     assert_eq!(report.end, End::Complete);
-    (recorder.history, report)
+    (recorder.into_history(), report)
 }
 
 /// Amplitudes of a frame.

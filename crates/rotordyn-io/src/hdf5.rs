@@ -6,6 +6,7 @@
 
 mod attribute;
 mod child;
+mod compression;
 mod handle;
 mod new_store;
 mod protocol;
@@ -30,6 +31,7 @@ pub use stream::ChannelStream;
 
 use crate::atomic_file::NewFile;
 use crate::error::Error;
+use compression::{DEFLATE_LEVEL, is_worthwhile};
 use handle::Handle;
 use hdf5::file::LibraryVersion;
 use hdf5::types::{TypeDescriptor, VarLenUnicode};
@@ -40,15 +42,13 @@ use std::path::{Path, PathBuf};
 
 /// Most values per chunk (256 kB of f64).
 const MAX_CHUNK_VALUES: usize = 32_768;
-/// Data sets with fewer values are stored contiguously and uncompressed.
+/// Data sets with fewer values, and those that compression hardly reduces, are stored contiguously and uncompressed.
 const MIN_CHUNKED_VALUES: usize = 1024;
 /// Chunks of an open data set that HDF5 keeps in memory \[bytes\]: four of ours, and the default of HDF5 1.x, by which
 /// programs choose their chunks. The eight times of HDF5 2 let an open run keep its record.
 const CHUNK_CACHE: usize = 1 << 20;
 /// Places of chunks in the cache, a prime number, and the preference to drop chunks that were read or written whole.
 const CACHE_PLACES: (usize, f64) = (521, 1.0);
-/// Deflate (gzip) level, 1 to 9: levels above 1 hardly reduce shuffled samples further.
-const DEFLATE_LEVEL: u8 = 1;
 
 /// An open HDF5 file.
 #[derive(Debug)]
@@ -172,7 +172,8 @@ impl Store {
         data: &[f64],
         attributes: &[(&str, Attribute)],
     ) -> Result<(), Error> {
-        self.map_write_error(name, self.dataset(name, shape, data, attributes))
+        let compressed = is_worthwhile(data.iter().copied());
+        self.map_write_error(name, self.dataset(name, shape, data, compressed, attributes))
     }
 
     /// Writes a data set of complex numbers, a compound {r, i} of f64; the name must not exist yet.
@@ -184,7 +185,8 @@ impl Store {
         attributes: &[(&str, Attribute)],
     ) -> Result<(), Error> {
         let pairs: Vec<_> = data.iter().map(|z| ComplexPair { r: z.re, i: z.im }).collect();
-        self.map_write_error(name, self.dataset(name, shape, &pairs, attributes))
+        let parts = data.iter().map(|z| z.re);
+        self.map_write_error(name, self.dataset(name, shape, &pairs, is_worthwhile(parts), attributes))
     }
 
     /// Writes a list of UTF-8 strings; the name must not exist yet.
@@ -209,7 +211,7 @@ impl Store {
             .iter()
             .map(|text| attribute::unicode(text.as_ref()))
             .collect::<hdf5::Result<Vec<_>>>()
-            .and_then(|texts| self.dataset(name, shape, &texts, attributes));
+            .and_then(|texts| self.dataset(name, shape, &texts, true, attributes));
         self.map_write_error(name, written)
     }
 
@@ -296,6 +298,7 @@ impl Store {
         name: &str,
         shape: &[usize],
         data: &[T],
+        compressed: bool,
         attributes: &[(&str, Attribute)],
     ) -> hdf5::Result<()> {
         if shape.iter().product::<usize>() != data.len() {
@@ -305,7 +308,7 @@ impl Store {
         let parent = name.rsplit_once('/').map_or("", |(parent, _)| parent);
         self.group(parent)?;
         let mut builder = self.file.new_dataset::<T>().obj_track_times(false);
-        if data.len() >= MIN_CHUNKED_VALUES {
+        if compressed && data.len() >= MIN_CHUNKED_VALUES {
             builder = builder.chunk(chunk(shape)).shuffle().deflate(DEFLATE_LEVEL);
         }
         let dataset = builder.shape(shape).create(name)?;

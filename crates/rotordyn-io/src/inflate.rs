@@ -1,11 +1,12 @@
-//! Decompression (inflate) of the zlib streams in .mat files, and checksums of archives.
+//! Decompression (inflate) of the zlib streams in .mat files, checksums of archives, and how far bytes can be compressed.
 //!
 //! The only module that uses the flate2 crate.
 
-use std::io::Read;
+use std::io::{Read, Write};
 
-use flate2::Crc;
 use flate2::read::ZlibDecoder;
+use flate2::write::ZlibEncoder;
+use flate2::{Compression, Crc};
 
 /// The first `count` bytes of a zlib stream.
 ///
@@ -31,6 +32,14 @@ pub fn zlib(bytes: &[u8], size: usize, out: &mut Vec<u8>) -> std::io::Result<()>
     }
     out.truncate(size);
     Ok(())
+}
+
+/// Number of bytes of a zlib stream of the given ones, with a level from 0 to 9.
+pub fn deflated_size(bytes: &[u8], level: u8) -> usize {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(level.into()));
+    // Writing to memory does not fail.
+    let stream = encoder.write_all(bytes).and_then(|()| encoder.finish());
+    stream.map_or(bytes.len(), |stream| stream.len())
 }
 
 /// CRC-32 of bytes, as in ZIP archives.

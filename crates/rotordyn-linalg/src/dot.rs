@@ -15,7 +15,7 @@ pub(super) fn dot_in_fours(a: &[f64], b: &[f64]) -> f64 {
 
 /// Σ aᵢ bᵢ as sixteen partial sums: several of the widest vectors at once, with the same rounding on every processor.
 #[inline(always)]
-pub(super) fn dot_in_sixteens(a: &[f64], b: &[f64]) -> f64 {
+pub fn dot_in_sixteens(a: &[f64], b: &[f64]) -> f64 {
     let (sixteens, rest) = a.as_chunks::<16>();
     let (others, other_rest) = b[..a.len()].as_chunks::<16>();
     let mut sums = [0.0; 16];

@@ -6,6 +6,7 @@
 //! | [`filter`] | Butterworth filters (IIR, second-order sections), causal or zero-phase |
 //! | [`spectrum`] | amplitude spectrum, PSD and cross spectrum by Welch, coherence, dB |
 //! | [`stft`] | short-time Fourier transform: spectrogram over time and rpm |
+//! | [`decimate`] | fewer samples behind an anti-aliasing filter, while the record grows |
 //! | [`resample`] | resampling uniform in shaft angle (angular resampling) or in time |
 //! | [`order`] | order tracking: order spectrogram, order cuts, averaged order spectrum |
 //! | [`vold_kalman`] | Vold-Kalman order tracking: complex amplitudes of several orders, sample by sample |
@@ -42,6 +43,7 @@ pub mod band_noise;
 pub mod bearing_lines;
 pub mod cepstrum;
 pub mod cyclic;
+pub mod decimate;
 mod demodulator;
 pub mod diagnosis;
 pub mod envelope;
@@ -52,6 +54,7 @@ mod gaussian;
 pub mod grading;
 pub mod impact;
 pub mod jerk;
+mod kaiser;
 pub mod kurtogram;
 pub mod lyapunov;
 pub mod motion_classification;

@@ -5,7 +5,9 @@ use std::ops::Range;
 
 use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record, check_same_length};
+use super::kaiser::kaiser;
 use super::stft::interpolate_at;
+use rotordyn_linalg::dot::dot_in_sixteens;
 use rotordyn_linalg::spline::Spline;
 
 /// Zero crossings of the interpolating sinc on each side.
@@ -203,8 +205,7 @@ impl AnglePart {
             }
             let range = self.samples.start + low..self.samples.start + high;
             for (out, channel) in out.iter_mut().zip(channels) {
-                let products = channel[range.clone()].iter().zip(&weights);
-                out.push(products.map(|(x, w)| x * w).sum::<f64>() / sum);
+                out.push(dot_in_sixteens(&channel[range.clone()], &weights) / sum);
             }
         }
         out
@@ -218,23 +219,10 @@ fn kernel() -> Vec<f64> {
     for i in 0..points {
         let v = PI * i as f64 / TABLE_STEPS as f64;
         let sinc = if i == 0 { 1.0 } else { v.sin() / v };
-        let r = i as f64 / points as f64;
-        table.push(sinc * bessel_i0(KAISER_BETA * (1.0 - r * r).sqrt()) / bessel_i0(KAISER_BETA));
+        table.push(sinc * kaiser(KAISER_BETA, i as f64 / points as f64));
     }
     table.extend([0.0, 0.0]);
     table
-}
-
-/// Modified Bessel function I₀ by its power series Σ (x²/4)ᵏ/(k!)², which converges fast for x up to 20.
-fn bessel_i0(x: f64) -> f64 {
-    let quarter = 0.25 * x * x;
-    let (mut term, mut sum, mut k) = (1.0, 1.0, 1.0);
-    while term > 1e-17 * sum {
-        term *= quarter / (k * k);
-        sum += term;
-        k += 1.0;
-    }
-    sum
 }
 
 /// Shaft angle \[rad\] from speed \[rad/s\], θ_n = θ₀ + Σ (Ω_{n−1} + Ω_n)/(2f_s); errors: NaN.

@@ -75,7 +75,7 @@ impl SegmentTransform {
         &self.output
     }
 
-    /// Writes the one-sided amplitudes of a segment, A_k = s |X_k| / Σw.
+    /// Writes the one-sided amplitudes of a segment, A_k = s |X_k| / Σw, of as many bins as `out` has.
     ///
     /// s = 2 (peak) or √2 (RMS); s = 1 for either at zero frequency and at Nyquist of an even length, which
     /// have no negative-frequency counterpart.
@@ -88,7 +88,8 @@ impl SegmentTransform {
         let length = self.fft_length();
         for (k, (a, x)) in out.iter_mut().zip(self.transform(segment, 0.0)).enumerate() {
             let scale = if has_mirror(k, length) { both } else { 1.0 / sum };
-            *a = scale * x.norm();
+            // Three times as fast as hypot, whose range nothing measured needs.
+            *a = scale * x.norm_sqr().sqrt();
         }
     }
 }

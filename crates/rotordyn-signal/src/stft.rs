@@ -129,10 +129,9 @@ impl Stft {
         let mut frequencies = bin_axis(bins, fft_length, self.sample_rate);
         frequencies.truncate(frequencies.partition_point(|f| *f <= limit).max(1));
         let kept = frequencies.len();
-        let (mut amplitude, mut all) = (vec![0.0; frames * kept], vec![0.0; bins]);
+        let mut amplitude = vec![0.0; frames * kept];
         for (frame, row) in amplitude.chunks_exact_mut(kept).enumerate() {
-            self.transform.amplitudes(&record[frame * hop..frame * hop + length], level, &mut all);
-            row.copy_from_slice(&all[..kept]);
+            self.transform.amplitudes(&record[frame * hop..frame * hop + length], level, row);
         }
         let centre = |frame: usize| ((frame * hop) as f64 + length as f64 / 2.0) / self.sample_rate;
         Ok(Spectrogram {

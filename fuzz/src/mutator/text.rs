@@ -102,6 +102,10 @@ pub fn replace_number(rng: &mut Rng, input: &mut Vec<u8>) {
     else {
         return;
     };
+    // The e of a word is none.
+    if !input[range.clone()].iter().any(u8::is_ascii_digit) {
+        return;
+    }
     let old = String::from_utf8_lossy(&input[range.clone()]).into_owned();
     let new = match rng.u8(0..6) {
         0 => format!("-{old}"),

@@ -100,7 +100,7 @@ impl Machine {
                 progress()
             });
             match report.end {
-                End::Complete => runs.push(recorder.history),
+                End::Complete => runs.push(recorder.into_history()),
                 End::Stopped => return Ok(None),
                 End::Failed(error) => return Err(error.into()),
             }

@@ -104,7 +104,7 @@ impl Machine {
             progress()
         });
         match report.end {
-            End::Complete => Ok(Some(machine.orders(orders, &recorder.history)?)),
+            End::Complete => Ok(Some(machine.orders(orders, &recorder.into_history())?)),
             End::Stopped => Ok(None),
             End::Failed(error) => Err(error.into()),
         }

@@ -1,5 +1,7 @@
 //! Spectrograms and order tracking of a recorded run.
 
+use std::collections::VecDeque;
+
 use super::{Machine, StudyError};
 use crate::model::study::{OrderStudy, SpectrogramStudy};
 use crate::results::{History, HistoryChannel, OrderResult, SpectrogramPeak, SpectrogramResult};
@@ -12,6 +14,8 @@ use rotordyn_signal::stft::{Spectrogram, Stft, StftSettings};
 /// Half width of an order cut's band in bins: three bins contain the level of a Hann-windowed line to 0.2 dB,
 /// and at a resolution of 0.05 they separate 7x from 2 BPFO = 7.14x.
 const CUT_HALF_WIDTH: f64 = 1.0;
+/// Most samples of channels that are resampled together (16 MB, and as many over the angle).
+const GROUP_VALUES: usize = 1 << 21;
 
 impl Machine {
     /// Spectrograms (STFT) of the requested channels up to a frequency, with the speed at every frame.
@@ -89,10 +93,20 @@ impl Machine {
         let mut tracker = OrderTracker::new(&theta, history.sample_rate, settings)?;
         let lines = self.order_lines(&study.cuts);
         let mut found = Vec::new();
-        for channel in selected_channels(&study.channels, history) {
-            let record = without_mean(&channel.values)?;
-            let records = tracker.resample(&[&record])?;
-            let spectrogram = tracker.spectrogram(&records[0]);
+        let channels: Vec<_> = selected_channels(&study.channels, history).collect();
+        // The kernel of the resampling is evaluated once for all channels of a group.
+        let group = (GROUP_VALUES / theta.len().max(1)).max(1);
+        let mut records = VecDeque::new();
+        for (k, channel) in channels.iter().enumerate() {
+            if records.is_empty() {
+                let group = &channels[k..channels.len().min(k + group)];
+                let plain = group.iter().map(|channel| without_mean(&channel.values));
+                let plain = plain.collect::<Result<Vec<_>, _>>()?;
+                let over_angle = tracker.resample(&plain.iter().map(Vec::as_slice).collect::<Vec<_>>())?;
+                records.extend(plain.into_iter().zip(over_angle));
+            }
+            let Some((record, over_angle)) = records.pop_front() else { break };
+            let spectrogram = tracker.spectrogram(&over_angle);
             let cut = |line: &crate::results::OrderLine| {
                 let cut = spectrogram.cut(line.order, CUT_HALF_WIDTH * study.resolution)?;
                 Ok((line.clone(), cut))

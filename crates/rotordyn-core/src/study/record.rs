@@ -1,5 +1,10 @@
 //! Recorder of a transient run: probes, bearing forces, cage angles, energies.
 
+use std::collections::VecDeque;
+
+use serde::{Deserialize, Serialize};
+
+use super::probe_filter::ProbeFilter;
 use crate::model::{Model, Probe, Quantity};
 use crate::results::{History, HistoryChannel, unit_of};
 use crate::series::Series;
@@ -7,10 +12,19 @@ use crate::transient::run::Sample;
 use crate::transient::system::System;
 
 /// Collects the samples of a run, channel by channel.
+///
+/// The probes are read at every step and pass an anti-aliasing filter, as before the converter of a measurement: what vibrates
+/// above the band of the record would fold into its lines. A sample is therefore complete some intervals later; forces,
+/// angles and energies are those of its instant.
 pub struct Recorder {
+    /// Channels, with the samples that are complete, if they are kept.
     pub history: History,
-    row: Vec<f64>,
-    /// Places in the row of the channels of the history.
+    filter: ProbeFilter,
+    /// Samples whose filtered values are to come, those that have just come, and the buffers of earlier ones.
+    waiting: VecDeque<RecordedSample>,
+    complete: Vec<RecordedSample>,
+    spare: Vec<RecordedSample>,
+    /// Places among all channels of a run of the channels of the history.
     kept: Vec<usize>,
     /// Whether samples are kept in memory.
     keeps_samples: bool,
@@ -18,6 +32,32 @@ pub struct Recorder {
     directions: Vec<usize>,
     /// Whether the work of a torque drive is recorded.
     drive: bool,
+}
+
+/// A complete sample: instant and shaft, and the values of all channels of the run in their order.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RecordedSample {
+    /// \[s\].
+    pub time: f64,
+    /// \[rad\].
+    pub angle: f64,
+    /// \[rad/s\].
+    pub speed: f64,
+    pub values: Vec<f64>,
+}
+
+/// What a recorder takes from the samples before: with it a new one goes on with the same bits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RecorderSnapshot {
+    filter: ProbeFilter,
+    waiting: VecDeque<RecordedSample>,
+}
+
+impl RecorderSnapshot {
+    /// Number of samples that are not complete yet.
+    pub fn waiting(&self) -> usize {
+        self.waiting.len()
+    }
 }
 
 impl Recorder {
@@ -59,7 +99,10 @@ impl Recorder {
             }));
         }
         Self {
-            row: Vec::with_capacity(channels.len()),
+            filter: ProbeFilter::default(),
+            waiting: VecDeque::new(),
+            complete: Vec::new(),
+            spare: Vec::new(),
             kept: (0..channels.len()).collect(),
             keeps_samples: true,
             drive,
@@ -82,20 +125,39 @@ impl Recorder {
         self
     }
 
-    /// Records one sample; returns the values of all channels of the run in their order.
-    pub fn record(&mut self, sample: &Sample) -> &[f64] {
+    /// The record of a run that has ended.
+    pub fn into_history(mut self) -> History {
+        self.finish();
+        self.history
+    }
+
+    /// What it takes to go on after the last sample.
+    pub fn snapshot(&self) -> RecorderSnapshot {
+        RecorderSnapshot { filter: self.filter.clone(), waiting: self.waiting.clone() }
+    }
+
+    /// Goes on after the samples of a snapshot.
+    pub fn resume(&mut self, snapshot: RecorderSnapshot) {
+        (self.filter, self.waiting) = (snapshot.filter, snapshot.waiting);
+    }
+
+    /// Records one sample; returns those that are complete with it.
+    pub fn record(&mut self, sample: &Sample) -> &[RecordedSample] {
         let state = sample.state;
-        self.row.clear();
-        self.row.extend_from_slice(sample.channels);
+        let mut recorded = self.spare.pop().unwrap_or_default();
+        (recorded.time, recorded.angle, recorded.speed) = (state.time, state.spin.angle, state.spin.speed);
+        let row = &mut recorded.values;
+        row.clear();
+        row.extend_from_slice(sample.channels);
         let bearings = state.reactions.iter().zip(&state.rotations);
         for (k, ((reaction, rotation), directions)) in bearings.zip(&self.directions).enumerate() {
             let along = |k: usize| if k < *directions { reaction.force[k] } else { 0.0 };
-            self.row.extend([along(0), along(1), along(2)]);
-            self.row.push(rotation.cage_angle);
-            sample.system.read_bodies(k, state, &mut self.row);
+            row.extend([along(0), along(1), along(2)]);
+            row.push(rotation.cage_angle);
+            sample.system.read_bodies(k, state, row);
         }
         let e = sample.energy;
-        self.row.extend([
+        row.extend([
             e.kinetic,
             e.strain,
             e.contact,
@@ -106,19 +168,36 @@ impl Recorder {
             e.residual(),
         ]);
         if self.drive {
-            self.row.push(e.drive);
+            row.push(e.drive);
         }
-        self.row.extend_from_slice(sample.means);
-        if self.keeps_samples {
-            let history = &mut self.history;
-            history.time.push(state.time);
-            history.angle.push(state.spin.angle);
-            history.speed.push(state.spin.speed);
-            for (channel, place) in history.channels.iter_mut().zip(&self.kept) {
-                channel.values.push(self.row[*place]);
+        row.extend_from_slice(sample.means);
+        self.waiting.push_back(recorded);
+        self.filter.push(sample);
+        self.complete_samples(sample.is_last())
+    }
+
+    /// Ends the record of a run that ended before its last sample; returns the samples that were not complete.
+    pub fn finish(&mut self) -> &[RecordedSample] {
+        self.complete_samples(true)
+    }
+
+    fn complete_samples(&mut self, at_end: bool) -> &[RecordedSample] {
+        self.spare.append(&mut self.complete);
+        while let Some(filtered) = self.filter.pop(at_end) {
+            let Some(mut sample) = self.waiting.pop_front() else { break };
+            sample.values[..filtered.len()].copy_from_slice(filtered);
+            if self.keeps_samples {
+                let history = &mut self.history;
+                history.time.push(sample.time);
+                history.angle.push(sample.angle);
+                history.speed.push(sample.speed);
+                for (channel, place) in history.channels.iter_mut().zip(&self.kept) {
+                    channel.values.push(sample.values[*place]);
+                }
             }
+            self.complete.push(sample);
         }
-        &self.row
+        &self.complete
     }
 }
 

@@ -11,6 +11,7 @@ use std::ops::ControlFlow;
 use serde::{Deserialize, Serialize};
 
 use super::Machine;
+use super::probe_filter::ProbeFilter;
 use crate::model::study::{Integrator, RunUpStudy};
 use crate::results::{History, StepError, StepErrorLine};
 use crate::series::SeriesError;
@@ -110,16 +111,21 @@ impl Machine {
         };
         let skipped = first - begin;
         let (mut angle, mut values) = (Vec::new(), vec![Vec::new(); probes]);
+        let mut filter = ProbeFilter::default();
         let rerun = run(&reduction.system, state, &settings, |sample| {
-            if sample.index * thinning >= skipped {
-                angle.push(sample.state.spin.angle);
-                values.iter_mut().zip(sample.channels).for_each(|(to, value)| to.push(*value));
+            filter.push(sample);
+            angle.push(sample.state.spin.angle);
+            while let Some(filtered) = filter.pop(sample.is_last()) {
+                values.iter_mut().zip(filtered).for_each(|(to, value)| to.push(*value));
             }
             ControlFlow::Continue(())
         });
         if rerun.end != End::Complete {
             return Ok(None);
         }
+        let before = skipped.div_ceil(thinning);
+        angle.drain(..before);
+        values.iter_mut().for_each(|values| drop(values.drain(..before)));
         // The record of the run at the samples of the rerun.
         let from = first + (thinning - skipped % thinning) % thinning;
         let at_samples = |stretch: &[f64]| -> Vec<f64> {

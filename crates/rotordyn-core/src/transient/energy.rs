@@ -11,6 +11,7 @@ use super::system::{State, System};
 use super::torque::DriveEnergy;
 use crate::model::Spin;
 use rotordyn_bearing::{Reaction, Rotation};
+use rotordyn_linalg::dot;
 
 /// Energy balance \[J\]: kinetic + strain + contact = start + work + drive + parametric − losses + residual.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
@@ -213,10 +214,11 @@ impl EnergyBalance {
             e.kinetic += drive.kinetic_energy(system, state);
         }
         e.kinetic += system.body_energy(state);
-        let x = state.x.rows(0, system.structure());
-        let mut pull = self.linear.rows_mut(0, system.structure());
-        pull.gemv(0.5, &system.stiffness, &x, 0.0);
-        e.strain = pull.dot(&x);
+        let x = &state.x.as_slice()[..system.structure()];
+        let pull = &mut self.linear.as_mut_slice()[..system.structure()];
+        pull.fill(0.0);
+        system.panels.stiffness.mul_add(x, pull);
+        e.strain = 0.5 * dot(pull, x);
         e.contact = state.reactions.iter().map(|r| r.elastic_energy).sum();
     }
 }

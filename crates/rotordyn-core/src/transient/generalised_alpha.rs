@@ -8,6 +8,7 @@
 
 mod driven_buffers;
 mod driven_step;
+mod force_history;
 mod interface_newton;
 mod memory;
 mod scheme;
@@ -21,6 +22,7 @@ use super::cage;
 use super::system::{State, System};
 use crate::model::Spin;
 use driven_buffers::DrivenStep;
+use force_history::ForceHistory;
 use interface_newton::InterfaceNewton;
 use rotordyn_bearing::Rotation;
 use step_matrix::StepMatrices;
@@ -36,9 +38,8 @@ pub struct GeneralisedAlpha {
     acceleration: DVector<f64>,
     /// v̂, x̂ of the structure and load factors, in the order of the step matrix.
     parts: Vec<f64>,
-    /// Bearing forces at the start of the previous step, and that step's length.
-    previous_force: Vec<f64>,
-    previous_step: f64,
+    /// Bearing forces of the last steps.
+    forces: ForceHistory,
     rotations: Vec<Rotation>,
     /// Buffers of a torque drive.
     driven: Option<DrivenStep>,
@@ -56,8 +57,7 @@ impl GeneralisedAlpha {
             v: zero(),
             acceleration: zero(),
             parts: Vec::new(),
-            previous_force: vec![0.0; places],
-            previous_step: 0.0,
+            forces: ForceHistory::new(places),
             rotations: vec![Default::default(); system.interfaces.len()],
             driven: None,
         }
@@ -149,15 +149,10 @@ impl GeneralisedAlpha {
 
         let newton = &mut self.newton;
         newton.set_free_motion(system, [&self.x, &self.v, &self.acceleration], &gain);
-        if !first {
-        } else if self.previous_step == step {
-            newton.extrapolate_force(&state.force, &self.previous_force);
-        } else {
-            newton.force.copy_from_slice(&state.force);
+        if first {
+            self.forces.extrapolate(&state.force, step, &mut newton.force);
         }
         newton.solve(system, &self.rotations, &gain, matrix.compliance())?;
-        self.previous_force.copy_from_slice(&state.force);
-        self.previous_step = step;
 
         let (force, on_internal) = newton.force.split_at(system.rows());
         let (structure, internal) = self.acceleration.as_mut_slice().split_at_mut(n);
@@ -173,6 +168,7 @@ impl GeneralisedAlpha {
     fn update(&mut self, state: &mut State, step: f64, spin: Spin) {
         let gain = self.scheme.gain(step);
         let mean = self.scheme.mean();
+        self.forces.push(&state.force, step);
         let end = self.x.iter().zip(&self.v).zip(&self.acceleration);
         let State { x, v, a, acceleration, .. } = state;
         let to = x.iter_mut().zip(v).zip(a).zip(acceleration);

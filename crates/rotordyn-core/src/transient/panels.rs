@@ -11,8 +11,9 @@ pub struct Panels {
     pub(super) is_nonzero: [bool; 5],
     /// The non-zero ones of \[G K_s K_c\].
     pub(super) rotational: Panel,
-    /// C alone.
+    /// C alone, and K alone.
     pub damping: Panel,
+    pub stiffness: Panel,
     /// The non-zero ones of \[K_s K_c\]: the left-hand terms that are neither elastic, damping nor gyroscopic.
     pub effective: Panel,
     /// W and Wᵀ.
@@ -48,6 +49,7 @@ impl Panels {
             is_nonzero,
             rotational: nonzero(2..5),
             damping: Panel::new(&[damping]),
+            stiffness: Panel::new(&[stiffness]),
             effective: nonzero(3..5),
             to_interface: Panel::new(&[interface_map]),
             from_interface: Panel::new(&[&interface_map.transpose()]),

@@ -28,6 +28,11 @@ pub struct Sample<'a> {
     pub state: &'a State,
     /// Values of the system's channels, in order.
     pub channels: &'a [f64],
+    /// The same at the equal steps since the sample before, one step after the other, this instant last; this instant alone
+    /// at the first sample and under error control.
+    pub steps: &'a [f64],
+    /// Number of these steps in a sampling interval; 1 under error control.
+    pub steps_per_sample: usize,
     /// Their means over the interval since the sample before, with free bodies; else empty.
     pub means: &'a [f64],
     pub energy: &'a Energy,
@@ -230,22 +235,31 @@ impl Run {
         from: usize,
         mut observe: impl FnMut(&Sample) -> ControlFlow<()>,
     ) -> Report {
-        let mut channels = vec![0.0; system.channels.len()];
+        let mut steps = Vec::new();
         let (mut seen, mut end) = (from, End::Complete);
         for index in from..=grid.samples {
-            if index > 0
-                && let Err(error) = self.advance(system, grid, index)
-            {
+            steps.clear();
+            if index == 0 {
+                read_channels(system, &self.state, &mut steps);
+            } else if let Err(error) = self.advance(system, grid, index, &mut steps) {
                 end = End::Failed(error);
                 break;
             }
             self.balance.update_stored_energy(system, &self.state);
-            system.read_channels(&self.state, &mut channels);
             seen = index + 1;
             let Self { start, state, stepper, balance, means } = &self;
             let run = RunParts { start: *start, last: grid.samples, stepper, balance, means };
-            let (channels, energy) = (&channels, &balance.energy);
-            let sample = Sample { system, index, state, channels, means: &means.sums, energy, run };
+            let sample = Sample {
+                system,
+                index,
+                state,
+                channels: &steps[steps.len() - system.channels.len()..],
+                steps: &steps,
+                steps_per_sample: if stepper.is_adaptive() { 1 } else { grid.calls },
+                means: &means.sums,
+                energy: &balance.energy,
+                run,
+            };
             if observe(&sample).is_break() {
                 end = End::Stopped;
                 break;
@@ -264,8 +278,14 @@ impl Run {
         }
     }
 
-    /// Steps from the sample before to the one at `index`.
-    fn advance(&mut self, system: &System, grid: &Grid, index: usize) -> Result<(), PhysicsError> {
+    /// Steps from the sample before to the one at `index`; appends the channels at the end of every step to `steps`.
+    fn advance(
+        &mut self,
+        system: &System,
+        grid: &Grid,
+        index: usize,
+        steps: &mut Vec<f64>,
+    ) -> Result<(), PhysicsError> {
         let Self { start, state, stepper, balance, means } = self;
         // Error control chooses the steps between two samples.
         let (calls, step) = if stepper.is_adaptive() { (1, grid.interval) } else { (grid.calls, grid.step) };
@@ -277,9 +297,15 @@ impl Run {
                 means.add(system, state, taken / grid.interval);
                 Ok(())
             })?;
+            read_channels(system, state, steps);
         }
         check_divergence(system, state)
     }
+}
+
+/// Appends the channels of a state to `out`.
+fn read_channels(system: &System, state: &State, out: &mut Vec<f64>) {
+    out.extend(system.channels.iter().map(|channel| channel.read(state)));
 }
 
 /// Means of the channels over a sampling interval, by the trapezoidal rule over the steps.

@@ -1,17 +1,18 @@
-//! The data sets of a run: preallocated while it is under way, compressed when it has ended.
+//! The data sets of a run: preallocated while it is under way, compressed where it pays when it has ended.
 
+use super::compression::{DEFLATE_LEVEL, TRIED_VALUES, is_worthwhile};
 use super::recording::{
     Channel, RUN_STATE, RUNNING, channel_names, channel_path, describe_channel, recorded_samples, sampling,
     time_path,
 };
-use super::{Attribute, CACHE_PLACES, DEFLATE_LEVEL, Store, attribute};
+use super::{Attribute, CACHE_PLACES, Store, attribute};
 use crate::error::Error;
 use hdf5::Dataset;
 use hdf5::plist::dataset_create::{AllocTime, FillTime};
 
-/// Samples per chunk of the compressed data sets.
+/// Samples per chunk of the data sets of a run that has ended.
 const CHUNK_SAMPLES: usize = 4096;
-/// Chunks in memory of every compressed data set while it is written, each of them once and whole \[bytes\].
+/// Chunks in memory of every one of them while it is written, each of them once and whole \[bytes\].
 const WRITE_CACHE: usize = 2 * 8 * CHUNK_SAMPLES;
 
 /// Name and unit of the data sets of `<root>/time`, before the channels.
@@ -46,7 +47,7 @@ pub fn preallocate_run(store: &Store, root: &str, run: &RunFormat, samples: usiz
     store.set_attribute(&format!("{root}/time"), RUN_STATE, RUNNING)
 }
 
-/// Copies a run under `root` into another file, compressed and cut to the samples recorded, block by block.
+/// Copies a run under `root` into another file, compressed where it pays and cut to the samples recorded, block by block.
 ///
 /// `state`: "complete" or "stopped: reason".
 ///
@@ -57,11 +58,18 @@ pub fn copy_run(from: &Store, to: &Store, root: &str, state: &str) -> Result<(),
     let channels: Vec<Channel> =
         names.iter().map(|name| describe_channel(from, root, name)).collect::<Result<_, _>>()?;
     let [sample_rate, start] = sampling(from, root)?;
+    let samples = recorded_samples(from, root)?;
+    let begin = samples.saturating_sub(TRIED_VALUES) / 2;
+    let middle = begin..samples.min(begin + TRIED_VALUES);
     let growable = |name: &str, attributes: &[(&str, Attribute)]| {
         let (places, whole_first) = CACHE_PLACES;
         let builder = to.file.new_dataset::<f64>().obj_track_times(false).chunk(CHUNK_SAMPLES);
         let builder = builder.chunk_cache(places, WRITE_CACHE, whole_first);
-        let dataset = builder.shuffle().deflate(DEFLATE_LEVEL).shape(0..).create(name)?;
+        let source = from.file.dataset(name)?;
+        let part = source.read_slice_1d::<f64, _>(middle.clone())?;
+        let builder =
+            if is_worthwhile(part.into_iter()) { builder.shuffle().deflate(DEFLATE_LEVEL) } else { builder };
+        let dataset = builder.shape(0..).create(name)?;
         attributes.iter().try_for_each(|(name, value)| attribute::set(&dataset, name, value))?;
         Ok(dataset)
     };
@@ -71,7 +79,6 @@ pub fn copy_run(from: &Store, to: &Store, root: &str, state: &str) -> Result<(),
         .iter()
         .map(|path| from.map_read_error(path, from.file.dataset(path)))
         .collect::<Result<_, _>>()?;
-    let samples = recorded_samples(from, root)?;
     let copied = (0..samples).step_by(CHUNK_SAMPLES).try_for_each(|begin| {
         let end = samples.min(begin + CHUNK_SAMPLES);
         sources.iter().zip(&sets).try_for_each(|(source, set)| {

@@ -159,7 +159,7 @@ static RUN_UP_TABLE: Table = Table {
 keys! {
     /// `[study.run_up]`.
     pub(super) static RUN_UP: RunUpKeys {
-        sample_rate: Quantity = quantity(positive(FREQUENCY), "Sampling rate of the channels.").default("2 kHz");
+        sample_rate: Quantity = quantity(positive(FREQUENCY), "Sampling rate of the channels; what probes hold above 0.39 of it is filtered out.").default("2 kHz");
         cutoff: Quantity = quantity(positive(FREQUENCY), "Modes below it are kept, with static correction modes.")
             .computed("all modes").example("\"2 kHz\"");
         from_equilibrium: Flag = flag("Start at static equilibrium, otherwise at rest without loads.")

@@ -4,14 +4,17 @@ use nalgebra::DVector;
 
 use super::StepFailure;
 use crate::transient::interface::StepTangents;
-use crate::transient::system::{State, System};
+use crate::transient::system::{Bodies, State, System};
 use rotordyn_bearing::internal::NewmarkGain;
 use rotordyn_bearing::{Reaction, Rotation};
-use rotordyn_linalg::small_dense::solve_in_place;
+use rotordyn_linalg::dot;
+use rotordyn_linalg::small_dense::{PaddedMatrix, widest};
 
-/// Newton stops when no interface displacement changed by more than this \[m, rad\] in an iteration; with quadratic
-/// convergence on contact deflections of 1e-7 m and more, the error is then below 1e-15 m.
-const TOLERANCE: f64 = 1e-11;
+/// Newton stops once the error of the accelerations is below this \[m/s²\] with contact deflections of the given size
+/// \[m\] or more: a change c of the displacements leaves an error of c²/(4 δ) with Hertz contacts, of c²/(4 δ b) in the
+/// acceleration. In 125 us that is a change of 1.2e-10 m. The next change with the same Jacobian leaves c³/(8 δ² b).
+const ACCELERATION_ERROR: f64 = 1e-5;
+const DEFLECTION: f64 = 1e-7;
 const MAX_ITERATIONS: usize = 25;
 
 /// The interface problem d = d̄ + b u, ḋ = ḋ̄ + c u, u = Y f(d, ḋ) with Y = W S⁻¹ Wᵀ and the step's gains b and c, and
@@ -26,7 +29,9 @@ pub(super) struct InterfaceNewton {
     /// Acceleration u of the rows by the bearing forces, and the residual u − Y f, then the correction.
     acceleration: Vec<f64>,
     correction: Vec<f64>,
-    jacobian: Vec<f64>,
+    /// b K + c C, block by block, and the factors of the Jacobian.
+    tangent: PaddedMatrix,
+    jacobian: PaddedMatrix,
     d: Vec<f64>,
     d_rate: Vec<f64>,
     /// Bearing forces: the initial guess, then the solution.
@@ -47,7 +52,8 @@ impl InterfaceNewton {
             free_acceleration: vec![0.0; places],
             acceleration: vec![0.0; rows],
             correction: vec![0.0; rows],
-            jacobian: vec![0.0; rows * rows],
+            tangent: PaddedMatrix::new(rows),
+            jacobian: PaddedMatrix::new(rows),
             d: vec![0.0; places],
             d_rate: vec![0.0; places],
             force: vec![0.0; places],
@@ -68,14 +74,6 @@ impl InterfaceNewton {
         }
     }
 
-    /// Initial guess of the force, extrapolated linearly from the last two states: about a hundred times closer than
-    /// the last state's force.
-    pub fn extrapolate_force(&mut self, last: &[f64], before: &[f64]) {
-        for ((force, last), before) in self.force.iter_mut().zip(last).zip(before) {
-            *force = 2.0 * last - before;
-        }
-    }
-
     /// Solves for the bearing forces from the guess in `force`; `compliance`: Y, row-major.
     ///
     /// # Errors
@@ -90,23 +88,42 @@ impl InterfaceNewton {
         for (u, y) in self.acceleration.iter_mut().zip(compliance.chunks_exact(system.rows())) {
             *u = y.iter().zip(&self.force).map(|(y, f)| y * f).sum::<f64>();
         }
+        let b = gain.position;
+        let tolerance = (4.0 * DEFLECTION * ACCELERATION_ERROR * b).sqrt();
+        let largest_kept = (8.0 * DEFLECTION.powi(2) * ACCELERATION_ERROR * b).cbrt();
+        let has_internal = self.d.len() > system.rows();
+        let mut keeps_jacobian = false;
         let mut failure = StepFailure { row: 0, residual: f64::INFINITY, iterations: 0 };
         for iteration in 1..=MAX_ITERATIONS {
             self.iterations += 1;
-            self.evaluate(system, rotations, gain);
-            self.linearise(system, gain, compliance);
-            if !solve_in_place(&mut self.jacobian, &mut self.correction) {
-                return Err(failure);
+            if keeps_jacobian {
+                self.evaluate_forces(system, rotations, gain);
+                self.find_residual(compliance);
+            } else {
+                self.evaluate(system, rotations, gain);
+                self.find_residual(compliance);
+                let factored = widest(
+                    #[inline(always)]
+                    || {
+                        self.linearise(system, gain, compliance);
+                        self.jacobian.factor()
+                    },
+                );
+                if !factored {
+                    return Err(failure);
+                }
             }
+            self.jacobian.solve(&mut self.correction);
             let (row, largest) = self.correct(gain);
             failure = StepFailure { row, residual: largest, iterations: iteration };
-            if largest <= TOLERANCE {
+            if largest <= tolerance {
                 self.apply_last_correction(system, gain);
                 return Ok(());
             }
             if !largest.is_finite() {
                 return Err(failure);
             }
+            keeps_jacobian = !has_internal && largest <= largest_kept;
         }
         Err(failure)
     }
@@ -127,36 +144,51 @@ impl InterfaceNewton {
         );
     }
 
-    /// Residual u − Y f and Jacobian I + Y (b K + c C), with the tangents block by block.
+    /// Bearing forces at the present u, without tangents.
+    fn evaluate_forces(&mut self, system: &System, rotations: &[Rotation], gain: &NewmarkGain) {
+        self.set_row_motion(gain);
+        let none = Bodies { states: &[], rates: &mut [] };
+        system.bearing_forces(&self.d, &self.d_rate, rotations, none, &mut self.reactions, &mut self.force);
+    }
+
+    /// u − Y f.
+    fn find_residual(&mut self, compliance: &[f64]) {
+        let lines = compliance.chunks_exact(self.correction.len());
+        for ((residual, u), y) in self.correction.iter_mut().zip(&self.acceleration).zip(lines) {
+            *residual = u - dot(y, &self.force);
+        }
+    }
+
+    /// Jacobian I + Y (b K + c C), with the tangents block by block.
+    #[inline(always)]
     fn linearise(&mut self, system: &System, gain: &NewmarkGain, compliance: &[f64]) {
         let rows = system.rows();
-        for r in 0..rows {
-            let y = &compliance[r * rows..(r + 1) * rows];
-            self.correction[r] =
-                self.acceleration[r] - y.iter().zip(&self.force).map(|(y, f)| y * f).sum::<f64>();
-            let line = &mut self.jacobian[r * rows..(r + 1) * rows];
-            line.fill(0.0);
-            for (interface, reaction) in system.interfaces.iter().zip(&self.reactions) {
-                let (first, count) = (interface.first_row, interface.rows);
-                let effective = &self.tangents.stiffness[interface.stiffness_range()];
-                for (b, k) in effective.chunks_exact(count).enumerate() {
-                    let yd = gain.position * y[first + b];
-                    for (column, k) in k.iter().enumerate() {
-                        line[first + column] += yd * k;
-                    }
-                }
-                if !effective.is_empty() {
-                    continue;
-                }
-                for b in 0..count {
-                    let (yd, yv) = (gain.position * y[first + b], gain.velocity * y[first + b]);
+        for (interface, reaction) in system.interfaces.iter().zip(&self.reactions) {
+            let (own, count) = (interface.row_range(), interface.rows);
+            let effective = &self.tangents.stiffness[interface.stiffness_range()];
+            for b in 0..count {
+                let line = &mut self.tangent.row_mut(own.start + b)[own.clone()];
+                if effective.is_empty() {
                     let (k, c) = (&reaction.stiffness[b], &reaction.damping[b]);
-                    for column in 0..count {
-                        line[first + column] += yd * k[column] + yv * c[column];
+                    for (entry, (k, c)) in line.iter_mut().zip(k.iter().zip(c)) {
+                        *entry = gain.position * k + gain.velocity * c;
+                    }
+                } else {
+                    for (entry, k) in line.iter_mut().zip(&effective[b * count..]) {
+                        *entry = gain.position * k;
                     }
                 }
             }
-            line[r] += 1.0;
+        }
+        for r in 0..rows {
+            let y = &compliance[r * rows..(r + 1) * rows];
+            let line = self.jacobian.row_mut(r);
+            line.fill(0.0);
+            line[r] = 1.0;
+            for interface in &system.interfaces {
+                let own = interface.row_range();
+                self.jacobian.add_rows(r, &y[own.clone()], &self.tangent, own.start, own);
+            }
         }
     }
 
@@ -181,24 +213,14 @@ impl InterfaceNewton {
         for (interface, reaction) in system.interfaces.iter().zip(&mut self.reactions) {
             let correction = &self.correction[interface.row_range()];
             let on_rows = &mut on_rows[interface.row_range()];
-            if interface.internal == 0 {
-                for (b, force) in reaction.force.iter_mut().enumerate().take(interface.rows) {
-                    for (column, by) in correction.iter().enumerate() {
-                        let (k, c) = (reaction.stiffness[b][column], reaction.damping[b][column]);
-                        *force += (gain.position * k + gain.velocity * c) * by;
-                    }
-                }
-                on_rows.copy_from_slice(&reaction.force[..interface.rows]);
-                continue;
-            }
-            let effective = self.tangents.stiffness[interface.stiffness_range()].chunks_exact(interface.rows);
-            for (force, k) in on_rows.iter_mut().zip(effective) {
-                for (k, by) in k.iter().zip(correction) {
-                    *force += gain.position * k * by;
-                }
+            for (row, force) in interface.row_range().zip(&mut *on_rows) {
+                *force += dot(&self.tangent.row(row)[interface.row_range()], correction);
             }
             for (force, on_row) in reaction.force.iter_mut().zip(on_rows) {
                 *force = *on_row;
+            }
+            if interface.internal == 0 {
+                continue;
             }
             let tangents =
                 self.tangents.internal_force[interface.tangent_range()].chunks_exact(interface.rows);

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::driven_buffers::{DrivenMemory, DrivenStep};
+use super::force_history::ForceHistory;
 use super::step_matrix::{Inversions, StepMatrices};
 use super::{GeneralisedAlpha, Scheme};
 use crate::transient::system::System;
@@ -10,8 +11,7 @@ use crate::transient::system::System;
 /// Guesses and inversions that later steps use, and the counters of the report.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StepMemory {
-    previous_force: Vec<f64>,
-    previous_step: f64,
+    forces: ForceHistory,
     inversions: Inversions,
     driven: Option<DrivenMemory>,
     iterations: u64,
@@ -20,7 +20,7 @@ pub struct StepMemory {
 impl StepMemory {
     /// Whether it is one of a system of this size.
     pub fn fits(&self, system: &System) -> bool {
-        self.previous_force.len() == system.interface_size()
+        self.forces.places() == system.interface_size()
             && self.driven.as_ref().is_none_or(|driven| system.drive.is_some() && driven.fits(system.size()))
     }
 }
@@ -29,8 +29,7 @@ impl GeneralisedAlpha {
     /// What the next step takes from the last ones.
     pub fn memory(&self) -> StepMemory {
         StepMemory {
-            previous_force: self.previous_force.clone(),
-            previous_step: self.previous_step,
+            forces: self.forces.clone(),
             inversions: self.matrices.inversions(),
             driven: self.driven.as_ref().map(DrivenStep::memory),
             iterations: self.iterations(),
@@ -40,8 +39,7 @@ impl GeneralisedAlpha {
     /// The integrator after the steps that left `memory`, which fits the system; its next step has the same bits.
     pub fn after(system: &System, scheme: Scheme, memory: &StepMemory) -> Self {
         let mut out = Self::new(system, scheme);
-        out.previous_force.copy_from_slice(&memory.previous_force);
-        out.previous_step = memory.previous_step;
+        out.forces = memory.forces.clone();
         out.matrices = StepMatrices::repeat(system, scheme, &memory.inversions);
         let driven = system.drive.as_ref().zip(memory.driven.as_ref());
         out.driven = driven.map(|(drive, memory)| DrivenStep::after(drive, memory));
