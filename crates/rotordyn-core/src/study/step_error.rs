@@ -31,8 +31,9 @@ const SHORT_COMPARED: usize = 2;
 /// Fewest samples of an interval, and fewest cycles of an order in the stretch.
 const FEWEST_SAMPLES: usize = 16;
 const FEWEST_CYCLES: f64 = 4.0;
-/// Lines below this share of their channel's largest level are left out.
+/// Lines below this share of their channel's largest level, or of the RMS value of its vibration, are left out.
 const SMALLEST_SHARE: f64 = 0.01;
+const SMALLEST_SHARE_OF_VIBRATION: f64 = 1e-3;
 
 /// States of a run at regular intervals, from which a stretch can be rerun: at most 65 of them, whatever its duration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -143,9 +144,11 @@ impl Machine {
             let own_values = at_samples(&channel.values.read(first..end + 1)?);
             let [own, other] = [level(&own_angle, &own_values), level(&angle, other)];
             let largest = own.iter().copied().fold(0.0, f64::max);
+            let least =
+                (SMALLEST_SHARE * largest).max(SMALLEST_SHARE_OF_VIBRATION * variance(&own_values).sqrt());
             let named = self.order_lines(&orders).into_iter();
             for (line, (level, other_level)) in named.zip(own.into_iter().zip(other)) {
-                if level > SMALLEST_SHARE * largest {
+                if level > least {
                     let error = (other_level - level) / level * factor;
                     let channel = channel.name.clone();
                     lines.push(StepErrorLine { channel, line, level, other_level, error });
