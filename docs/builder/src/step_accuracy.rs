@@ -33,8 +33,9 @@ pub fn section(points: &str) -> Result<Section, String> {
         "\n## Time steps\n\nThe run-up of the rig, 13 s, with each integrator and step: error of the worst of seven order cuts at \
          housing B (1x, 2x, BPFO, 7x, 2 BPFO, 8x, 9x; RMS over the run, against Newmark's method at 6.25 us), over the CPU time \
          of the run on one core, without output (`cargo bench --bench step_accuracy`). With fitted inertias the resonances \
-         have their exact frequencies up to three steps a period, so that what is left is the error of the contacts. The rig's model takes \
-         62.5 us with them, with waviness 50 us; generalised-alpha stays the default of models that choose no integrator, since it damps what \
+         have their exact frequencies up to three steps a period, so that what is left is the error of the contacts; \
+         the filter between steps and samples keeps what vibrates above the band of the record out of the cuts. The rig's model takes \
+         125 us with them, with waviness 83 us; generalised-alpha stays the default of models that choose no integrator, since it damps what \
          a step does not resolve.\n\n",
     );
     let mut pictures = Vec::new();
