@@ -45,18 +45,11 @@ pub fn solve_in_place(a: &mut [f64], b: &mut [f64]) -> bool {
     true
 }
 
-/// Runs code compiled for the widest vectors of this processor, as far as it is inlined; the results are the same on all.
-pub fn widest<R>(code: impl FnOnce() -> R) -> R {
-    pulp::Arch::new().dispatch(code)
-}
-
 /// A row of a [`PaddedMatrix`] in vectors of this many entries.
 pub const LANES: usize = 4;
 type Lanes = [f64; LANES];
 
 /// A small square matrix in row-major order, each row padded with zeros to whole vectors.
-///
-/// Its methods are inlined, so that code compiled for the processor at hand ([`widest`]) uses its vectors.
 #[derive(Clone, Debug, Default)]
 pub struct PaddedMatrix {
     size: usize,
@@ -93,7 +86,7 @@ impl PaddedMatrix {
 
     /// Adds Σ_b factors_b source_{first+b} to a row, over the vectors that hold the columns `columns`, outside of which the rows
     /// of `source` are zero.
-    #[inline(always)]
+    #[inline]
     pub fn add_rows(
         &mut self,
         row: usize,
@@ -116,7 +109,6 @@ impl PaddedMatrix {
     /// Factors the matrix in place by Gaussian elimination with partial pivoting, for [`Self::solve`].
     ///
     /// Returns false for a zero or non-finite pivot.
-    #[inline(always)]
     pub fn factor(&mut self) -> bool {
         let (n, vectors) = (self.size, self.vectors);
         let stride = vectors * LANES;
@@ -157,7 +149,6 @@ impl PaddedMatrix {
     }
 
     /// Solves A x = b in place with the factors; `b` becomes x.
-    #[inline(always)]
     pub fn solve(&self, b: &mut [f64]) {
         let (n, stride) = (self.size, self.vectors * LANES);
         for (k, pivot) in self.pivots.iter().enumerate() {

@@ -1,7 +1,5 @@
 //! Spectrograms and order tracking of a recorded run.
 
-use std::collections::VecDeque;
-
 use super::{Machine, StudyError};
 use crate::model::study::{OrderStudy, SpectrogramStudy};
 use crate::results::{History, HistoryChannel, OrderResult, SpectrogramPeak, SpectrogramResult};
@@ -95,34 +93,30 @@ impl Machine {
         let mut found = Vec::new();
         let channels: Vec<_> = selected_channels(&study.channels, history).collect();
         // The kernel of the resampling is evaluated once for all channels of a group.
-        let group = (GROUP_VALUES / theta.len().max(1)).max(1);
-        let mut records = VecDeque::new();
-        for (k, channel) in channels.iter().enumerate() {
-            if records.is_empty() {
-                let group = &channels[k..channels.len().min(k + group)];
-                let plain = group.iter().map(|channel| without_mean(&channel.values));
-                let plain = plain.collect::<Result<Vec<_>, _>>()?;
-                let over_angle = tracker.resample(&plain.iter().map(Vec::as_slice).collect::<Vec<_>>())?;
-                records.extend(plain.into_iter().zip(over_angle));
+        let size = (GROUP_VALUES / theta.len().max(1)).max(1);
+        for group in channels.chunks(size) {
+            let records = group.iter().map(|channel| without_mean(&channel.values));
+            let records = records.collect::<Result<Vec<_>, _>>()?;
+            let over_angle = tracker.resample(&records.iter().map(Vec::as_slice).collect::<Vec<_>>())?;
+            for ((channel, record), over_angle) in group.iter().zip(&records).zip(&over_angle) {
+                let spectrogram = tracker.spectrogram(over_angle);
+                let cut = |line: &crate::results::OrderLine| {
+                    let cut = spectrogram.cut(line.order, CUT_HALF_WIDTH * study.resolution)?;
+                    Ok((line.clone(), cut))
+                };
+                let cuts = lines.iter().map(cut).collect::<Result<_, SignalError>>()?;
+                let orders: Vec<f64> = lines.iter().map(|line| line.order).collect();
+                let tracks = study
+                    .bandwidth
+                    .map(|width| order_tracks(record, &theta, history.sample_rate, &orders, width));
+                found.push(OrderResult {
+                    channel: channel.name.clone(),
+                    unit: channel.unit.clone(),
+                    spectrogram: spectrogram.try_map_amplitude(&mut *keep)?,
+                    cuts,
+                    tracks: tracks.transpose()?,
+                });
             }
-            let Some((record, over_angle)) = records.pop_front() else { break };
-            let spectrogram = tracker.spectrogram(&over_angle);
-            let cut = |line: &crate::results::OrderLine| {
-                let cut = spectrogram.cut(line.order, CUT_HALF_WIDTH * study.resolution)?;
-                Ok((line.clone(), cut))
-            };
-            let cuts = lines.iter().map(cut).collect::<Result<_, SignalError>>()?;
-            let orders: Vec<f64> = lines.iter().map(|line| line.order).collect();
-            let tracks = study
-                .bandwidth
-                .map(|width| order_tracks(&record, &theta, history.sample_rate, &orders, width));
-            found.push(OrderResult {
-                channel: channel.name.clone(),
-                unit: channel.unit.clone(),
-                spectrogram: spectrogram.try_map_amplitude(&mut *keep)?,
-                cuts,
-                tracks: tracks.transpose()?,
-            });
         }
         Ok(found)
     }

@@ -31,8 +31,7 @@ impl ProbeFilter {
     /// Values of the next sample, if they are there; `at_end`: no more steps come.
     pub fn pop(&mut self, at_end: bool) -> Option<&[f64]> {
         self.values.clear();
-        let filter = self.filter.as_mut()?;
-        let there = if at_end { filter.pop_at_end(&mut self.values) } else { filter.pop(&mut self.values) };
+        let there = self.filter.as_mut()?.pop(at_end, &mut self.values);
         there.then_some(&self.values)
     }
 }

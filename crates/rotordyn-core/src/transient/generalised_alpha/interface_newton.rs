@@ -8,7 +8,7 @@ use crate::transient::system::{Bodies, State, System};
 use rotordyn_bearing::internal::NewmarkGain;
 use rotordyn_bearing::{Reaction, Rotation};
 use rotordyn_linalg::dot;
-use rotordyn_linalg::small_dense::{PaddedMatrix, widest};
+use rotordyn_linalg::small_dense::PaddedMatrix;
 
 /// Newton stops once the error of the accelerations is below this \[m/s²\] with contact deflections of the given size
 /// \[m\] or more: a change c of the displacements leaves an error of c²/(4 δ) with Hertz contacts, of c²/(4 δ b) in the
@@ -102,14 +102,8 @@ impl InterfaceNewton {
             } else {
                 self.evaluate(system, rotations, gain);
                 self.find_residual(compliance);
-                let factored = widest(
-                    #[inline(always)]
-                    || {
-                        self.linearise(system, gain, compliance);
-                        self.jacobian.factor()
-                    },
-                );
-                if !factored {
+                self.linearise(system, gain, compliance);
+                if !self.jacobian.factor() {
                     return Err(failure);
                 }
             }
@@ -160,7 +154,6 @@ impl InterfaceNewton {
     }
 
     /// Jacobian I + Y (b K + c C), with the tangents block by block.
-    #[inline(always)]
     fn linearise(&mut self, system: &System, gain: &NewmarkGain, compliance: &[f64]) {
         let rows = system.rows();
         for (interface, reaction) in system.interfaces.iter().zip(&self.reactions) {
