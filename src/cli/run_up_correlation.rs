@@ -9,7 +9,7 @@ use rotordyn::io::hdf5::Store;
 use rotordyn::io::measured::{mapping, run_up};
 use rotordyn::io::{machine_records, results_file};
 use rotordyn::model::Model;
-use rotordyn::results::{CampbellResult, ChannelPair, CutPair, StepError, level_difference_db};
+use rotordyn::results::{CampbellResult, ChannelPair, CutPair, StepError, Verdict, level_difference_db};
 use rotordyn::study::{Machine, MeasuredRun, run_up_warnings};
 use rotordyn::update::UpdateError;
 use rotordyn::warning::Code;
@@ -18,7 +18,7 @@ use super::args::{OutputFiles, ShaftArgs, StoredArgs};
 use super::failure::Failure;
 use super::folder_lock::FolderLock;
 use super::machine::ModelSource;
-use super::signal::input::{File, InputProblems, cut_time_range};
+use super::signal::input::{File, InputProblems, clipping_text, cut_time_range};
 use super::signal::shaft_source::ShaftSource;
 use super::store::{self, ModelText};
 use super::studies::{Job, Study};
@@ -30,6 +30,8 @@ const MAX_ROWS: usize = 40;
 /// Fraction of the highest speed: a record that starts faster than this causes a start transient in the
 /// simulation.
 const MAX_START_SPEED_RATIO: f64 = 0.2;
+/// Revolutions on either side over which the jitter of tacho pulses is smoothed.
+const SMOOTHING_REVOLUTIONS: usize = 4;
 /// Fraction of a channel's largest order below which an order is not listed.
 const MIN_ORDER_LEVEL_RATIO: f64 = 1e-3;
 
@@ -77,13 +79,16 @@ pub fn read(
         )));
     }
     // The measured shaft angle drives the model; pulse jitter would excite it.
-    let smoothed = ShaftArgs { smooth_tacho: true, ..args.shaft.clone() };
-    let shaft = ShaftSource::of(&smoothed, None, &file, &mut findings);
+    let shaft = ShaftSource::of(args.shaft, None, &file, &mut findings).smoothed_over(SMOOTHING_REVOLUTIONS);
     let named = |failure: Failure| match failure {
         Failure::Input(text) => Failure::Input(format!("{}: {text}", path.display())),
         other => other,
     };
+    let tacho = std::mem::take(&mut findings.warnings);
     std::mem::take(&mut findings).to_result().map_err(named)?;
+    tacho
+        .into_iter()
+        .for_each(|text| terminal.warn_of(Code::MeasuredData, format!("{}: {text}", path.display())));
     if !shaft.is_known() {
         return Ok(Err("the speed of the shaft is not known: give --tacho CHANNEL, or --track \
              1=\"5 Hz .. 50 Hz\"; a channel `speed` needs its unit, such as [channel.speed] unit = \"rpm\" in the \
@@ -114,6 +119,8 @@ pub fn read(
         cut_time_range(channel, args.time, "--time", &mut findings);
     }
     findings.to_result().map_err(named)?;
+    let limited = channels.iter().filter_map(|(_, channel)| clipping_text(channel));
+    limited.for_each(|text| terminal.warn_of(Code::ClippedRecord, format!("{}: {text}", path.display())));
     let first = &channels[0].1;
     let motion = shaft.motion(first).map_err(|text| named(Failure::Input(text)))?;
     let Some(motion) = motion.filter(|m| !m.angle.is_empty() && !m.summary.steady) else {
@@ -178,7 +185,7 @@ pub fn compare(
         return Err(failure);
     }
     let Some(computed) = &job.results.run_up else { return Ok((None, job.files)) };
-    let pairs = job.machine.correlate_run_up(&found.run.history, &computed.history)?;
+    let pairs = job.machine.correlate_run_up(&found.run, computed)?;
     tables(terminal, &pairs, &format!("{prefix}.h5"));
     let compared = ComparedRunUp {
         source: found.source.clone(),
@@ -295,10 +302,17 @@ fn tables(terminal: &Terminal, pairs: &[ChannelPair], file: &str) {
                     true => "(end)".into(),
                     false => format!("{:+.2}", 100.0 * (c.rpm / m.rpm - 1.0)),
                 },
+                match cut.agreement.verdict {
+                    _ if m.at_end || c.at_end => "-".into(),
+                    Verdict::BelowBackground => "-".into(),
+                    _ => format!("{:.2}", 100.0 * cut.agreement.speed),
+                },
                 number(m.rms, 4),
                 number(c.rms, 4),
                 level([m.rms, c.rms]),
+                format!("{:.1}", cut.agreement.level_db()),
                 format!("{:.3}", cut.correlation),
+                cut.agreement.verdict.name().into(),
             ]);
         }
     }
@@ -308,10 +322,13 @@ fn tables(terminal: &Terminal, pairs: &[ChannelPair], file: &str) {
         "measured rpm",
         "computed rpm",
         "error %",
+        "+- %",
         "measured RMS",
         "computed RMS",
         "level dB",
+        "+- dB",
         "correlation",
+        "within +-",
     ];
     let count = rows.len();
     rows.truncate(MAX_ROWS);
@@ -321,7 +338,8 @@ fn tables(terminal: &Terminal, pairs: &[ChannelPair], file: &str) {
     }
     terminal.print(
         "  level: computed over measured; (end): peak at the lowest or highest speed; correlation of the order level \
-         over\n  the whole run, 1 for proportional levels",
+         over\n  the whole run, 1 for proportional levels; +-: 95 % by background, shaft angle and time step, without \
+         calibration",
     );
 }
 

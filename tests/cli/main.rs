@@ -30,6 +30,7 @@ mod runs;
 mod signal;
 mod signal_failures;
 mod signal_grade;
+mod spoiled_run_ups;
 mod steady;
 mod trend;
 mod trend_statements;

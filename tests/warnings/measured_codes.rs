@@ -44,6 +44,16 @@ pub const CASES: &[Case] = &[
             program::codes(folder.path(), &[&arguments[..], &OUT].concat(), 0)
         })
     }),
+    (Code::ClippedRecord, || {
+        let folder = program::folder(&[]);
+        let record = shaft_at_30_hz();
+        let Values::Real(values) = &record.values else { unreachable!("a record of time") };
+        let limited = Values::Real(values.iter().map(|v| v.min(0.8)).collect());
+        write(folder.path(), "plain.npz", vec![record.clone()]);
+        write(folder.path(), "spoiled.npz", vec![Record { values: limited, ..record }]);
+        ["plain.npz", "spoiled.npz"]
+            .map(|file| program::codes(folder.path(), &[&["signal", file][..], &OUT].concat(), 0))
+    }),
     (Code::Identification, || {
         let folder = program::folder(&[]);
         let frfs = [1, 2].map(frf);

@@ -10,6 +10,7 @@
 //! | [`resample`] | resampling uniform in shaft angle (angular resampling) or in time |
 //! | [`order`] | order tracking: order spectrogram, order cuts, averaged order spectrum |
 //! | [`vold_kalman`] | Vold-Kalman order tracking: complex amplitudes of several orders, sample by sample |
+//! | [`order_background`] | background beside an order, and how certain a level over it is |
 //! | [`order_tracks`] | amplitude and phase of orders over time and speed, from the Vold-Kalman filter |
 //! | [`waterfall`] | waterfall (cascade) plot: spectra at chosen speeds |
 //! | [`ridge`] | peak interpolation, peaks of a spectrogram near a given line |
@@ -18,6 +19,7 @@
 //! | [`motion_classification`] | classification of a motion: periodic, quasi-periodic or chaotic (0–1 test) |
 //! | [`lyapunov`] | largest Lyapunov exponent from the growth of a perturbation |
 //! | [`band_noise`] | band-limited Gaussian random function of time |
+//! | [`clipping`] | samples that stand at a limit of their channel |
 //! | [`statistics`] | RMS, peak, crest factor, skewness, kurtosis |
 //! | [`impact`] | impact (hammer) test: detection and quality of hits, FRF estimators H1, H2, Hv, coherence, windows |
 //! | [`envelope`] | Hilbert transform: analytic signal, envelope, (squared) envelope spectrum of a band |
@@ -42,6 +44,7 @@ mod background;
 pub mod band_noise;
 pub mod bearing_lines;
 pub mod cepstrum;
+pub mod clipping;
 pub mod cyclic;
 pub mod decimate;
 mod demodulator;
@@ -60,6 +63,7 @@ pub mod lyapunov;
 pub mod motion_classification;
 pub mod orbit;
 pub mod order;
+pub mod order_background;
 pub mod order_tracks;
 pub mod poincare;
 mod quantity;

@@ -57,6 +57,17 @@ impl Jitter {
         Ok(Some(Self { angle: TAU * (mean / (1.0 - OWN_WEIGHT)).sqrt(), pulses_per_revolution: 1.0 / pitch }))
     }
 
+    /// Standard deviation of the angle \[rad\] after smoothing by a cubic over `half_width` pulses on either side.
+    ///
+    /// σ √w with the weight w = 3 (3m² + 3m − 1)/((2m − 1)(2m + 1)(2m + 3)) of its own pulse in a cubic over 2m + 1 pulses
+    /// (Savitzky-Golay), for white jitter.
+    pub fn smoothed_angle(&self, half_width: usize) -> f64 {
+        let m = half_width as f64;
+        let weight =
+            3.0 * (3.0 * m * m + 3.0 * m - 1.0) / ((2.0 * m - 1.0) * (2.0 * m + 1.0) * (2.0 * m + 3.0));
+        self.angle * weight.min(1.0).sqrt()
+    }
+
     /// RMS of what an order ν of RMS amplitude A leaves in a band of `width` orders beside it, ν A σ √(1.04 width/pulses).
     pub fn leak(&self, order: f64, amplitude: f64, width: f64) -> f64 {
         order * amplitude * self.angle * (NOISE_BANDWIDTH * width / self.pulses_per_revolution).sqrt()

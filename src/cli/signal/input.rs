@@ -7,6 +7,7 @@ use rotordyn::io::measured::run_up::is_rotation_signal;
 use rotordyn::io::measured::{self, unit_label};
 use rotordyn::io::results_file::newest_results;
 use rotordyn::names::nearest;
+use rotordyn::signal::clipping::clipping;
 use rotordyn::signal::record::{MeasuredData, Points, Record, RecordError, Values};
 use rotordyn::study::signal::SignalChannel;
 use rotordyn::units::{self, Dimension, FREQUENCY, TIME};
@@ -328,6 +329,15 @@ pub fn cut_time_range(
     }
     channel.start += range.start as f64 / rate;
     channel.samples = channel.samples[range].to_vec();
+}
+
+/// What is said of a channel whose samples stand at a limit.
+pub fn clipping_text(channel: &SignalChannel) -> Option<String> {
+    let found = clipping(&channel.samples)?;
+    Some(format!(
+        "`{}` is clipped: {} samples stand at {:.4e} {}, in {} excursions: its levels are too low and its harmonics too high",
+        channel.name, found.samples, found.limit, channel.unit, found.times
+    ))
 }
 
 /// Sample range between two times.

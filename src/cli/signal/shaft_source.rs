@@ -11,6 +11,8 @@ use rotordyn::units::FREQUENCY;
 use super::super::args::ShaftArgs;
 use super::input::{File, InputProblems, plain_name};
 
+/// Pulses on either side used to smooth tacho jitter, if requested.
+const SMOOTHING: usize = 4;
 /// Trigger hysteresis as a fraction of the tacho signal's range.
 const HYSTERESIS: f64 = 0.2;
 
@@ -21,7 +23,9 @@ pub enum ShaftSource {
     Steady(f64, String),
     Pulses {
         train: PulseTrain,
-        smooth: bool,
+        per_revolution: usize,
+        /// Pulses on either side over which jitter is smoothed.
+        smoothing: Option<usize>,
         source: String,
     },
     Line {
@@ -57,6 +61,14 @@ impl ShaftSource {
         known.unwrap_or(ShaftSource::Unknown)
     }
 
+    /// The same with the jitter of pulses smoothed over `revolutions` on either side, and four pulses at least.
+    pub fn smoothed_over(mut self, revolutions: usize) -> Self {
+        if let ShaftSource::Pulses { per_revolution, smoothing, .. } = &mut self {
+            *smoothing = Some(SMOOTHING.max(revolutions * *per_revolution));
+        }
+        self
+    }
+
     /// Whether the shaft speed is known.
     pub fn is_known(&self) -> bool {
         !matches!(self, ShaftSource::Unknown)
@@ -69,10 +81,10 @@ impl ShaftSource {
         Ok(Some(match self {
             ShaftSource::Unknown => return Ok(None),
             ShaftSource::Steady(speed, source) => ShaftMotion::constant(*speed, source.clone()),
-            ShaftSource::Pulses { train, smooth, source } => {
+            ShaftSource::Pulses { train, smoothing, source, .. } => {
                 let times = train.times.iter().map(|t| t - channel.start).collect();
                 let train = PulseTrain { times, ..train.clone() };
-                ShaftMotion::from_pulses(&train, rate, samples.len(), *smooth, source.clone())
+                ShaftMotion::from_pulses(&train, rate, samples.len(), *smoothing, source.clone())
                     .map_err(message)?
             }
             ShaftSource::Line { order, range, source } => {
@@ -179,7 +191,8 @@ fn tacho(
         ));
     }
     let source = format!("{source}, {} per revolution", args.pulses_per_rev);
-    Some(ShaftSource::Pulses { train, smooth: args.smooth_tacho, source })
+    let smoothing = args.smooth_tacho.then_some(SMOOTHING);
+    Some(ShaftSource::Pulses { train, per_revolution: args.pulses_per_rev, smoothing, source })
 }
 
 /// Pulse times \[s\]: given as values, or the rising edges of a channel.

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub struct ChannelPair {
     pub channel: String,
     pub unit: String,
-    /// RMS of the vibration (mean removed) over the whole run.
+    /// RMS of the vibration (mean and drift removed) over the whole run.
     pub rms: [f64; 2],
     pub spectrograms: [SpectrogramResult; 2],
     pub orders: [OrderResult; 2],
@@ -24,6 +24,42 @@ pub struct CutPair {
     pub peaks: [CutPeak; 2],
     /// Correlation (Σ m c)² / (Σ m² Σ c²) of the levels over time: 1 if one is a multiple of the other.
     pub correlation: f64,
+    pub agreement: CutAgreement,
+}
+
+/// Whether the maxima of an order's levels agree within their uncertainty.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CutAgreement {
+    pub verdict: Verdict,
+    /// Level that noise of the background does not exceed, at the maximum of each; `None` if there is nothing to read it from.
+    pub noise_limit: [Option<f64>; 2],
+    /// Half-width of the 95 % interval of ln(computed/measured), of the level and of the speed.
+    pub level: f64,
+    pub speed: f64,
+}
+
+/// What is said of an order line, measured and computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Verdict {
+    Agrees,
+    LevelDiffers,
+    SpeedDiffers,
+    BothDiffer,
+    /// Neither stands out of the background, or the computed one is too low to be seen in that of the measurement.
+    BelowBackground,
+}
+
+impl Verdict {
+    /// "agrees", "level differs", ….
+    pub fn name(self) -> &'static str {
+        match self {
+            Verdict::Agrees => "agrees",
+            Verdict::LevelDiffers => "level differs",
+            Verdict::SpeedDiffers => "speed differs",
+            Verdict::BothDiffer => "level and speed differ",
+            Verdict::BelowBackground => "below background",
+        }
+    }
 }
 
 /// Maximum of an order cut.
@@ -57,8 +93,18 @@ impl ChannelPair {
                         .number("computed_rms", "", |c| c.peaks[1].rms)
                         .flag("at_end", |c| c.peaks.iter().any(|peak| peak.at_end))
                         .number("correlation", "1", |c| c.correlation)
+                        .number("level_uncertainty_db", "dB", |c| c.agreement.level_db())
+                        .number("speed_uncertainty", "1", |c| c.agreement.speed)
+                        .text("agreement", |c| c.agreement.verdict.name())
                 },
             )
+    }
+}
+
+impl CutAgreement {
+    /// Half-width of the level's 95 % interval \[dB\].
+    pub fn level_db(&self) -> f64 {
+        20.0 * self.level * std::f64::consts::LOG10_E
     }
 }
 

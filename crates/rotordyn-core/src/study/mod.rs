@@ -16,6 +16,7 @@ pub mod free_ball;
 mod machine;
 mod milestone;
 mod motion;
+mod order_agreement;
 mod order_tracking;
 mod probe_filter;
 mod record;

@@ -11,7 +11,7 @@ use rotordyn_signal::stft::{Spectrogram, Stft, StftSettings};
 
 /// Half width of an order cut's band in bins: three bins contain the level of a Hann-windowed line to 0.2 dB,
 /// and at a resolution of 0.05 they separate 7x from 2 BPFO = 7.14x.
-const CUT_HALF_WIDTH: f64 = 1.0;
+pub(super) const CUT_HALF_WIDTH: f64 = 1.0;
 /// Most samples of channels that are resampled together (16 MB, and as many over the angle).
 const GROUP_VALUES: usize = 1 << 21;
 

@@ -2,8 +2,7 @@
 
 use super::StudyError;
 use super::case_comparison::MEASURED;
-use super::order_tracking::without_mean;
-use super::run_up_correlation::{correlation, peak, rms};
+use super::run_up_correlation::{correlation, peak, vibration_rms};
 use crate::results::{
     CaseCut, CaseRun, ComparedChannel, CutPoint, History, HistoryChannel, OrderResult, RunUpComparison,
     SpectrogramResult,
@@ -60,7 +59,7 @@ pub fn compare_run_ups(runs: &[Run]) -> Result<RunUpComparison, StudyError> {
             let measured = measured.and_then(|first| first.orders.iter().find(|o| o.channel == name));
             compared.push(CaseRun {
                 case: run.name.into(),
-                rms: rms(&without_mean(&channel.values)?),
+                rms: vibration_rms(run.history, channel)?,
                 spectrogram: run.spectrograms.iter().find(|s| s.channel == name).cloned(),
                 cuts: orders.map(|own| cuts(own, measured)).unwrap_or_default(),
                 orders: orders.cloned(),

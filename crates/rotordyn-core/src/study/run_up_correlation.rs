@@ -1,12 +1,15 @@
 //! Test-analysis correlation of a run-up: the model driven by the measured shaft angle, read at the sensors.
 
-use super::order_tracking::without_mean;
+use super::order_agreement::{CutLevels, KnownErrors, agreement};
 use super::record::probe_channel;
 use super::signal::{ShaftMotion, SignalChannel};
 use super::{Machine, StudyError};
 use crate::model::study::{OrderStudy, SpectrogramStudy};
 use crate::model::{Model, Probe, SpeedProfile};
-use crate::results::{ChannelPair, CutPair, CutPeak, History, OrderLine, OrderResult, SpectrogramResult};
+use crate::results::{
+    ChannelPair, CutPair, CutPeak, History, HistoryChannel, OrderResult, RunUpResult, SpectrogramResult,
+};
+use crate::series::SeriesError;
 use rotordyn_linalg::{Outside, piecewise};
 use rotordyn_signal::SignalError;
 use rotordyn_signal::order::OrderCut;
@@ -16,6 +19,9 @@ use rotordyn_signal::resample::SAMPLES_PER_ORDER;
 const POINTS_PER_SECOND: f64 = 100.0;
 /// Fraction of the speed range within which a maximum counts as at its end.
 const END_FRACTION: f64 = 5e-3;
+/// Revolutions at mean speed, and least time \[s\], of the moving mean that counts as drift.
+const DRIFT_REVOLUTIONS: f64 = 3.0;
+const DRIFT_SECONDS: f64 = 1.0;
 /// Default orders of the cuts, if the model gives none.
 const DEFAULT_CUTS: [f64; 3] = [1.0, 2.0, 3.0];
 
@@ -28,6 +34,8 @@ pub struct MeasuredRun {
     pub probes: Vec<Probe>,
     /// Measured shaft rotation.
     pub profile: SpeedProfile,
+    /// Standard deviation of the shaft angle \[rad\].
+    pub angle_deviation: f64,
 }
 
 impl MeasuredRun {
@@ -63,7 +71,7 @@ impl MeasuredRun {
             history.channels.push(described);
             probes.push(probe);
         }
-        Ok(Self { history, probes, profile })
+        Ok(Self { history, probes, profile, angle_deviation: motion.angle_deviation })
     }
 
     /// The model with the measured shaft rotation as speed profile and the measured channels as probes.
@@ -92,21 +100,40 @@ fn speed_profile(angle: &[f64], rate: f64) -> SpeedProfile {
     SpeedProfile::Pulses { points, duration: last as f64 / rate }
 }
 
-pub(super) fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64).sqrt()
+/// RMS of a channel less its moving mean over three revolutions at mean speed, at least a second: the drift of a sensor,
+/// or the place of the shaft in its clearance, is no vibration.
+pub(super) fn vibration_rms(run: &History, channel: &HistoryChannel) -> Result<f64, SeriesError> {
+    let values = channel.values.all()?;
+    let seconds = values.len() as f64 / run.sample_rate;
+    let turns = run.angle.ends()?.map_or(0.0, |[from, to]| (to - from).abs()) / std::f64::consts::TAU;
+    let over = (DRIFT_REVOLUTIONS * seconds / turns.max(f64::MIN_POSITIVE)).max(DRIFT_SECONDS);
+    let half = ((0.5 * over * run.sample_rate) as usize).min(values.len());
+    let mut sums = vec![0.0; values.len() + 1];
+    for (k, v) in values.iter().enumerate() {
+        sums[k + 1] = sums[k] + v;
+    }
+    let deviation = |k: usize| {
+        // Symmetric also at the ends: a straight drift has no deviation.
+        let reach = half.min(k).min(values.len() - 1 - k);
+        values[k] - (sums[k + reach + 1] - sums[k - reach]) / (2 * reach + 1) as f64
+    };
+    let power: f64 = (0..values.len()).map(|k| deviation(k).powi(2)).sum();
+    Ok((power / values.len().max(1) as f64).sqrt())
 }
 
 impl Machine {
     /// Spectrograms, order spectra and order cuts of measured and computed channels of the same name, by the
-    /// settings of the model's studies within the range of both sampling rates.
+    /// settings of the model's studies within the range of both sampling rates, and which orders agree.
     ///
     /// # Errors
     /// A run too short for the window or for the order resolution, invalid settings, samples that cannot be read.
     pub fn correlate_run_up(
         &self,
-        measured: &History,
-        computed: &History,
+        run: &MeasuredRun,
+        computed: &RunUpResult,
     ) -> Result<Vec<ChannelPair>, StudyError> {
+        let (measured, step_error) = (&run.history, computed.step_error.as_ref());
+        let computed = &computed.history;
         let runs = [measured, computed];
         let rate = measured.sample_rate.min(computed.sample_rate);
         let Some((spectra, orders)) = self.spectra_within(measured, rate)? else { return Ok(Vec::new()) };
@@ -126,12 +153,13 @@ impl Machine {
             let (Some((own_m, map_m, orders_m)), Some((own_c, map_c, orders_c))) = (of(0), of(1)) else {
                 continue;
             };
-            let [rms_m, rms_c] = [rms(&without_mean(&own_m.values)?), rms(&without_mean(&own_c.values)?)];
+            let errors = KnownErrors { angle: run.angle_deviation, step: step_error };
+            let rms = |run: &History, of: &HistoryChannel| vibration_rms(run, of);
             pairs.push(ChannelPair {
                 channel: channel.name.clone(),
                 unit: channel.unit.clone(),
-                rms: [rms_m, rms_c],
-                cuts: cut_pairs(&orders_m, &orders_c),
+                rms: [rms(measured, own_m)?, rms(computed, own_c)?],
+                cuts: cut_pairs([&orders_m, &orders_c], &errors)?,
                 spectrograms: [map_m, map_c],
                 orders: [orders_m, orders_c],
             });
@@ -181,13 +209,19 @@ impl Machine {
     }
 }
 
-fn cut_pairs(measured: &OrderResult, computed: &OrderResult) -> Vec<CutPair> {
-    let pair = |((line, m), (_, c)): (&(OrderLine, OrderCut), &(OrderLine, OrderCut))| CutPair {
-        line: line.clone(),
-        peaks: [peak(m), peak(c)],
-        correlation: correlation(m, c),
+fn cut_pairs(runs: [&OrderResult; 2], errors: &KnownErrors) -> Result<Vec<CutPair>, SeriesError> {
+    let found = [CutLevels::new(runs[0])?, CutLevels::new(runs[1])?];
+    let pair = |k: usize| {
+        let [(line, m), (_, c)] = runs.map(|run| &run.cuts[k]);
+        let peaks = [peak(m), peak(c)];
+        CutPair {
+            line: line.clone(),
+            peaks,
+            correlation: correlation(m, c),
+            agreement: agreement(&found, k, peaks, errors),
+        }
     };
-    measured.cuts.iter().zip(&computed.cuts).map(pair).collect()
+    Ok((0..runs[0].cuts.len().min(runs[1].cuts.len())).map(pair).collect())
 }
 
 pub(super) fn peak(cut: &OrderCut) -> CutPeak {

@@ -225,6 +225,10 @@ codes! {
     MeasuredData, "measured-data", Caution,
         "A measured file is not complete or not consistent: channels are left out, or a unit or rate is assumed.",
         "state what is missing in a mapping";
+    ClippedRecord, "clipped-record", Caution,
+        "Samples of a measured channel stand at a limit again and again: its levels are too low, and harmonics appear that the \
+         machine does not have.",
+        "measure with a larger range of the sensor or the recorder";
     Identification, "identification", Caution,
         "Identified poles or shapes rest on hits that are left out or truncated, or on FRFs that are noisy, few or poorly fitted.",
         "see the text of the warning";

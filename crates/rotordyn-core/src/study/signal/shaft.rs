@@ -13,8 +13,6 @@ use rotordyn_signal::tacholess::{SpeedLineSettings, speed_from_line};
 const STEADY_TOLERANCE: f64 = 0.01;
 /// Number of sections of a record over which speeds are compared.
 const SPEED_SECTIONS: usize = 200;
-/// Pulses on either side used to smooth tacho jitter, if requested.
-const SMOOTHING: usize = 4;
 
 /// Speed of a shaft, and its angle if known.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,6 +23,8 @@ pub struct ShaftMotion {
     pub first: usize,
     /// Jitter of an angle from tacho pulses.
     pub jitter: Option<Jitter>,
+    /// Standard deviation of the angle \[rad\]: what smoothing leaves of the jitter; 0 if unknown.
+    pub angle_deviation: f64,
 }
 
 impl ShaftMotion {
@@ -32,7 +32,7 @@ impl ShaftMotion {
     pub fn constant(speed: f64, source: String) -> Self {
         let speed = speed.abs();
         let summary = ShaftSummary { source, mean: speed, min: speed, max: speed, steady: true };
-        ShaftMotion { summary, angle: Vec::new(), first: 0, jitter: None }
+        ShaftMotion { summary, angle: Vec::new(), first: 0, jitter: None, angle_deviation: 0.0 }
     }
 
     /// An angle \[rad\] sampled at `sample_rate` \[Hz\] from sample `first` of the record on.
@@ -55,6 +55,7 @@ impl ShaftMotion {
             angle,
             first,
             jitter: None,
+            angle_deviation: 0.0,
         }
     }
 
@@ -63,27 +64,32 @@ impl ShaftMotion {
         Ok(Self::from_angle(integrate_speed(speed, sample_rate, 0.0)?, 0, sample_rate, source))
     }
 
-    /// From tacho pulses at times \[s\] from the record's first sample; `smooth` reduces their jitter.
+    /// From tacho pulses at times \[s\] from the record's first sample.
     ///
+    /// `smoothing`: pulses on either side of the cubics that reduce their jitter, fewer in a short train.
     /// Errors: too few pulses, no sample between the first and the last.
     pub fn from_pulses(
         train: &PulseTrain,
         sample_rate: f64,
         samples: usize,
-        smooth: bool,
+        smoothing: Option<usize>,
         source: String,
     ) -> Result<Self, SignalError> {
         // Smoothing over nine pulses leaves the slow part of the jitter, which comes close to an order.
         let jitter = Jitter::of_pulses(train)?;
+        let mut angle_deviation = jitter.map_or(0.0, |jitter| jitter.angle);
         let smoothed;
-        let train = if smooth {
-            smoothed = train.smoothed(SMOOTHING)?;
-            &smoothed
-        } else {
-            train
+        let train = match smoothing.map(|width| width.min(train.times.len().saturating_sub(1) / 2)) {
+            Some(width) => {
+                angle_deviation = jitter.map_or(0.0, |jitter| jitter.smoothed_angle(width));
+                smoothed = train.smoothed(width)?;
+                &smoothed
+            }
+            None => train,
         };
         let (angle, first) = train.angle(sample_rate, samples)?;
-        Ok(ShaftMotion { jitter, ..Self::from_angle(angle, first, sample_rate, source) })
+        let motion = Self::from_angle(angle, first, sample_rate, source);
+        Ok(ShaftMotion { jitter, angle_deviation, ..motion })
     }
 
     /// Tacholess: from the line of one order in the record itself, between two frequencies \[Hz\].

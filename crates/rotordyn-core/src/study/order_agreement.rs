@@ -1,0 +1,119 @@
+//! Whether a measured and a computed order line agree within their uncertainty.
+//!
+//! A level is uncertain by the background in its band and by the shaft angle: with an angle off by σ, the order ν is off by
+//! ν σ of its amplitude at most. A computed one is uncertain by the time step as well. The calibration of a sensor is not
+//! known here.
+
+use super::order_tracking::CUT_HALF_WIDTH;
+use crate::results::{CutAgreement, CutPeak, OrderResult, StepError, Verdict};
+use crate::series::SeriesError;
+use rotordyn_signal::order::OrderCut;
+use rotordyn_signal::order_background::CutBackground;
+
+/// Standard deviations of a 95 % interval.
+const CONFIDENCE: f64 = 2.0;
+/// Part of the distance between windows by which the place of a maximum between them is uncertain.
+const BETWEEN_WINDOWS: f64 = 0.1;
+
+/// Uncertainties that the spectra do not show.
+pub(super) struct KnownErrors<'a> {
+    /// Standard deviation of the shaft angle \[rad\].
+    pub angle: f64,
+    pub step: Option<&'a StepError>,
+}
+
+/// The order cuts of a channel with their background.
+pub(super) struct CutLevels<'a> {
+    channel: &'a str,
+    cuts: Vec<(&'a str, &'a OrderCut, Option<CutBackground>)>,
+}
+
+impl<'a> CutLevels<'a> {
+    /// # Errors
+    /// Amplitudes that cannot be read.
+    pub fn new(found: &'a OrderResult) -> Result<Self, SeriesError> {
+        let spectrogram = &found.spectrogram;
+        let amplitude = spectrogram.amplitude.all()?;
+        let lines: Vec<f64> = found.cuts.iter().map(|(line, _)| line.order).collect();
+        let half_band = CUT_HALF_WIDTH * spectrogram.orders.get(1).copied().unwrap_or(1.0);
+        let of = |(line, cut): &'a (crate::results::OrderLine, OrderCut)| {
+            let background = spectrogram.cut_background(&amplitude, line.order, half_band, &lines);
+            (line.label.as_str(), cut, background)
+        };
+        Ok(Self { channel: &found.channel, cuts: found.cuts.iter().map(of).collect() })
+    }
+}
+
+/// Maximum of an order cut with its standard deviations.
+struct UncertainPeak {
+    /// Of the level and of the speed, relative.
+    level: f64,
+    speed: f64,
+    noise_limit: Option<f64>,
+}
+
+impl UncertainPeak {
+    /// `relative`: what is uncertain beside the background.
+    fn new(cut: &OrderCut, background: Option<&CutBackground>, peak: CutPeak, relative: f64) -> Self {
+        let nearest = |a: &usize, b: &usize| {
+            let distance = |k: usize| (cut.rpm[k] - peak.rpm).abs();
+            distance(*a).total_cmp(&distance(*b)).then(cut.rms[*b].total_cmp(&cut.rms[*a]))
+        };
+        let Some(window) = (0..cut.rpm.len()).min_by(nearest) else {
+            return Self { level: f64::INFINITY, speed: f64::INFINITY, noise_limit: None };
+        };
+        let own = background.map_or(0.0, |b| b.deviation(peak.rms, window));
+        let level = (own / peak.rms.max(f64::MIN_POSITIVE)).hypot(relative);
+        // Speeds at which the level is that of the maximum within its uncertainty.
+        let floor = peak.rms * (1.0 - CONFIDENCE * level);
+        let as_high = cut.rpm.iter().zip(&cut.rms).filter(|(_, level)| **level >= floor);
+        let (low, high) =
+            as_high.fold((peak.rpm, peak.rpm), |(low, high), (rpm, _)| (low.min(*rpm), high.max(*rpm)));
+        let neighbours = [window.saturating_sub(1), (window + 1).min(cut.rpm.len() - 1)];
+        let spacing = 0.5 * (cut.rpm[neighbours[1]] - cut.rpm[neighbours[0]]).abs();
+        let speed = (0.5 * (high - low) / CONFIDENCE).max(BETWEEN_WINDOWS * spacing);
+        let noise_limit = background.map(|b| b.limit(window));
+        Self { level, speed: speed / peak.rpm.max(f64::MIN_POSITIVE), noise_limit }
+    }
+}
+
+/// Compares the maxima `peaks` \[measured, computed\] of cut `k`.
+pub(super) fn agreement(
+    runs: &[CutLevels; 2],
+    k: usize,
+    peaks: [CutPeak; 2],
+    errors: &KnownErrors,
+) -> CutAgreement {
+    let (label, cut, _) = runs[0].cuts[k];
+    let step = errors.step.map_or(0.0, |found| {
+        let own = found.lines.iter().find(|l| l.channel == runs[1].channel && l.line.label == label);
+        own.or_else(|| found.worst()).map_or(0.0, |line| line.error.abs())
+    });
+    // The angle counts once: it drives the model, and measured and computed orders are read over it.
+    let relative = [cut.order * errors.angle, step];
+    let uncertain = [0, 1].map(|run| {
+        let (_, cut, background) = &runs[run].cuts[k];
+        UncertainPeak::new(cut, background.as_ref(), peaks[run], relative[run])
+    });
+    let level = CONFIDENCE * uncertain[0].level.hypot(uncertain[1].level);
+    let speed = CONFIDENCE * uncertain[0].speed.hypot(uncertain[1].speed);
+    let [measured, computed] = peaks;
+    let verdict = if let Some(limit) = uncertain[0].noise_limit.filter(|limit| measured.rms <= *limit) {
+        // What is measured is a bound.
+        match computed.rms > limit && (computed.rms / measured.rms).ln() > level {
+            true => Verdict::LevelDiffers,
+            false => Verdict::BelowBackground,
+        }
+    } else {
+        let at_end = measured.at_end || computed.at_end;
+        let level_agrees = (computed.rms / measured.rms).ln().abs() <= level;
+        let speed_agrees = at_end || (computed.rpm / measured.rpm).ln().abs() <= speed;
+        match (level_agrees, speed_agrees) {
+            (true, true) => Verdict::Agrees,
+            (false, true) => Verdict::LevelDiffers,
+            (true, false) => Verdict::SpeedDiffers,
+            (false, false) => Verdict::BothDiffer,
+        }
+    };
+    CutAgreement { verdict, noise_limit: uncertain.map(|u| u.noise_limit), level, speed }
+}
