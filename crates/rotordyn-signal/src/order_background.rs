@@ -10,8 +10,8 @@ use super::segment::Level;
 const MAIN_LOBE_BINS: f64 = 2.5;
 /// Bins beyond the band of a cut, on either side, in which the background is read.
 const BACKGROUND_BINS: usize = 10;
-/// Windows on either side over which the power of the background is averaged.
-const AVERAGED_WINDOWS: usize = 2;
+/// Windows on either side whose median is taken: a line that passes a resonance rings beside its order for less.
+const WINDOWS: usize = 8;
 /// Chance that noise alone exceeds a level that counts as a line, in all windows of a run together.
 const CHANCE: f64 = 0.01;
 
@@ -31,8 +31,9 @@ impl<A> OrderSpectrogram<A> {
     /// Background in the band `order` ± `half_band`, from the bins beside it.
     ///
     /// N = ν m²/ln 2, m² the median of A_rms² over up to ten bins on either side (noise power is exponentially
-    /// distributed), ν the cells of the band, averaged over two windows on either side. Bins that the window of another line reaches are left out: those of
-    /// `lines` and of whole orders. `amplitude` of this spectrogram, row-major. `None` if no bin is left.
+    /// distributed), ν the cells of the band; of that the median over eight windows on either side. Bins that the
+    /// window of another line reaches are left out: those of `lines` and of whole orders. `amplitude` of this
+    /// spectrogram, row-major. `None` if no bin is left.
     pub fn cut_background(
         &self,
         amplitude: &[f64],
@@ -64,13 +65,9 @@ impl<A> OrderSpectrogram<A> {
             .chunks_exact(bins)
             .map(|row| median(free.iter().map(|k| row[*k] * row[*k]).collect()) * cells * to_power / LN_2);
         let power: Vec<f64> = medians.collect();
-        let average = |k: usize| {
-            let about =
-                &power[k.saturating_sub(AVERAGED_WINDOWS)..(k + AVERAGED_WINDOWS + 1).min(power.len())];
-            (about.iter().sum::<f64>() / about.len() as f64).sqrt()
-        };
+        let about = |k: usize| power[k.saturating_sub(WINDOWS)..(k + WINDOWS + 1).min(power.len())].to_vec();
         let relative_deviation = 1.0 / (LN_2 * (free.len() as f64).sqrt());
-        let rms = (0..power.len()).map(average).collect();
+        let rms = (0..power.len()).map(|k| median(about(k)).sqrt()).collect();
         Some(CutBackground { rms, cells, relative_deviation })
     }
 }
