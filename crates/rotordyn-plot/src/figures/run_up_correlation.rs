@@ -5,7 +5,7 @@ use super::Named;
 use super::display_unit::{quantity, unit};
 use super::run::{SpectraOfRun, spectrograms};
 use crate::{Curve, Figure, Grid, GridPanel};
-use rotordyn_core::results::{CampbellResult, ChannelPair, OrderResult};
+use rotordyn_core::results::{CampbellResult, ChannelPair, CutPair, OrderResult, Verdict};
 use rotordyn_core::series::SeriesError;
 use rotordyn_core::study::Machine;
 
@@ -40,7 +40,7 @@ fn cuts(pair: &ChannelPair, machine: &Machine) -> Grid {
         y: of.cuts[k].1.rms.iter().map(|v| v * shown.factor).collect(),
         points: false,
     };
-    let panel = |(k, cut): (usize, &rotordyn_core::results::CutPair)| GridPanel {
+    let panel = |(k, cut): (usize, &CutPair)| GridPanel {
         name: format!("{}, RMS", cut.line.label),
         unit: shown.name.into(),
         curves: pair.orders.iter().map(|of| curve(of, k)).collect(),
@@ -48,8 +48,13 @@ fn cuts(pair: &ChannelPair, machine: &Machine) -> Grid {
         log_y: false,
     };
     Grid {
-        title: format!("Order cuts of the {}, {}", quantity(&pair.unit), pair.channel),
-        note: machine.model.title.clone(),
+        title: format!(
+            "Order cuts of the {}, {}: {}",
+            quantity(&pair.unit),
+            pair.channel,
+            machine.model.title
+        ),
+        note: agreement_note(&pair.cuts),
         x_name: "shaft speed".into(),
         x_unit: "rpm".into(),
         legend: vec!["measured".into(), "computed".into()],
@@ -57,4 +62,19 @@ fn cuts(pair: &ChannelPair, machine: &Machine) -> Grid {
         columns: 2,
         mark: None,
     }
+}
+
+/// "agrees: 1x, 7x; below background: 2x", within the uncertainty of the lines.
+fn agreement_note(cuts: &[CutPair]) -> String {
+    let mut groups: Vec<(Verdict, Vec<&str>)> = Vec::new();
+    for cut in cuts {
+        let verdict = cut.agreement.verdict;
+        match groups.iter_mut().find(|(own, _)| *own == verdict) {
+            Some((_, labels)) => labels.push(&cut.line.label),
+            None => groups.push((verdict, vec![&cut.line.label])),
+        }
+    }
+    let texts: Vec<String> =
+        groups.iter().map(|(verdict, labels)| format!("{}: {}", verdict.name(), labels.join(", "))).collect();
+    texts.join("; ")
 }
