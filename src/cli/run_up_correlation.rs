@@ -9,7 +9,7 @@ use rotordyn::io::hdf5::Store;
 use rotordyn::io::measured::{mapping, run_up};
 use rotordyn::io::{machine_records, results_file};
 use rotordyn::model::Model;
-use rotordyn::results::{CampbellResult, ChannelPair, CutPair, StepError, Verdict, level_difference_db};
+use rotordyn::results::{Agreement, CampbellResult, ChannelPair, CutPair, StepError, level_difference_db};
 use rotordyn::study::{Machine, MeasuredRun, run_up_warnings};
 use rotordyn::update::UpdateError;
 use rotordyn::warning::Code;
@@ -302,9 +302,9 @@ fn tables(terminal: &Terminal, pairs: &[ChannelPair], file: &str) {
                     true => "(end)".into(),
                     false => format!("{:+.2}", 100.0 * (c.rpm / m.rpm - 1.0)),
                 },
-                match cut.agreement.verdict {
+                match cut.agreement.finding {
                     _ if m.at_end || c.at_end => "-".into(),
-                    Verdict::BelowBackground => "-".into(),
+                    Agreement::BelowBackground => "-".into(),
                     _ => format!("{:.2}", 100.0 * cut.agreement.speed),
                 },
                 number(m.rms, 4),
@@ -312,7 +312,7 @@ fn tables(terminal: &Terminal, pairs: &[ChannelPair], file: &str) {
                 level([m.rms, c.rms]),
                 format!("{:.1}", cut.agreement.level_db()),
                 format!("{:.3}", cut.correlation),
-                cut.agreement.verdict.name().into(),
+                cut.agreement.finding.name().into(),
             ]);
         }
     }

@@ -56,7 +56,7 @@ pub use response_grid::{UndampedPeak, is_rotation, unit_of};
 pub use run_summary::{ChannelSummary, RunSummary};
 pub use run_up::{CagePhaseBand, CagePhaseChannel, CagePhaseLine, RunUpResult, StepError, StepErrorLine};
 pub use run_up_comparison::{CaseCut, CaseRun, ComparedChannel, CutPoint, RunUpComparison};
-pub use run_up_correlation::{ChannelPair, CutAgreement, CutPair, CutPeak, Verdict, level_difference_db};
+pub use run_up_correlation::{Agreement, ChannelPair, CutAgreement, CutPair, CutPeak, level_difference_db};
 pub use signal::{
     BearingWithOrders, CyclicLine, CyclicResult, EnvelopeResult, JerkResult, KurtogramResult, RaceResult,
     ShaftAverage, ShaftOrders, ShaftSummary, SignalResult, SpectrogramWithSpeed,

@@ -53,9 +53,9 @@ impl<A> OrderSpectrogram<A> {
             // Bin 0 is the mean.
             place > reach && apart(&order) && lines.iter().all(apart) && (whole || *spacing > 0.15)
         };
-        let beside =
+        let around =
             (first.saturating_sub(BACKGROUND_BINS)..first).chain(end..(end + BACKGROUND_BINS).min(bins));
-        let free: Vec<usize> = beside.filter(is_free).collect();
+        let free: Vec<usize> = around.filter(is_free).collect();
         if free.is_empty() {
             return None;
         }

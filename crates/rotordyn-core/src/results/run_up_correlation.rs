@@ -30,7 +30,7 @@ pub struct CutPair {
 /// Whether the maxima of an order's levels agree within their uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CutAgreement {
-    pub verdict: Verdict,
+    pub finding: Agreement,
     /// Level that noise of the background does not exceed, at the maximum of each; `None` if there is nothing to read it from.
     pub noise_limit: [Option<f64>; 2],
     /// Half-width of the 95 % interval of ln(computed/measured), of the level and of the speed.
@@ -40,7 +40,7 @@ pub struct CutAgreement {
 
 /// What is said of an order line, measured and computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Verdict {
+pub enum Agreement {
     Agrees,
     LevelDiffers,
     SpeedDiffers,
@@ -49,15 +49,15 @@ pub enum Verdict {
     BelowBackground,
 }
 
-impl Verdict {
+impl Agreement {
     /// "agrees", "level differs", ….
     pub fn name(self) -> &'static str {
         match self {
-            Verdict::Agrees => "agrees",
-            Verdict::LevelDiffers => "level differs",
-            Verdict::SpeedDiffers => "speed differs",
-            Verdict::BothDiffer => "level and speed differ",
-            Verdict::BelowBackground => "below background",
+            Agreement::Agrees => "agrees",
+            Agreement::LevelDiffers => "level differs",
+            Agreement::SpeedDiffers => "speed differs",
+            Agreement::BothDiffer => "level and speed differ",
+            Agreement::BelowBackground => "below background",
         }
     }
 }
@@ -95,7 +95,7 @@ impl ChannelPair {
                         .number("correlation", "1", |c| c.correlation)
                         .number("level_uncertainty_db", "dB", |c| c.agreement.level_db())
                         .number("speed_uncertainty", "1", |c| c.agreement.speed)
-                        .text("agreement", |c| c.agreement.verdict.name())
+                        .text("agreement", |c| c.agreement.finding.name())
                 },
             )
     }

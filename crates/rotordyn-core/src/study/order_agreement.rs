@@ -5,7 +5,7 @@
 //! known here.
 
 use super::order_tracking::CUT_HALF_WIDTH;
-use crate::results::{CutAgreement, CutPeak, OrderResult, StepError, Verdict};
+use crate::results::{Agreement, CutAgreement, CutPeak, OrderResult, StepError};
 use crate::series::SeriesError;
 use rotordyn_signal::order::OrderCut;
 use rotordyn_signal::order_background::CutBackground;
@@ -98,22 +98,22 @@ pub(super) fn agreement(
     let level = CONFIDENCE * uncertain[0].level.hypot(uncertain[1].level);
     let speed = CONFIDENCE * uncertain[0].speed.hypot(uncertain[1].speed);
     let [measured, computed] = peaks;
-    let verdict = if let Some(limit) = uncertain[0].noise_limit.filter(|limit| measured.rms <= *limit) {
+    let finding = if let Some(limit) = uncertain[0].noise_limit.filter(|limit| measured.rms <= *limit) {
         // What is measured is a bound.
         match computed.rms > limit && (computed.rms / measured.rms).ln() > level {
-            true => Verdict::LevelDiffers,
-            false => Verdict::BelowBackground,
+            true => Agreement::LevelDiffers,
+            false => Agreement::BelowBackground,
         }
     } else {
         let at_end = measured.at_end || computed.at_end;
         let level_agrees = (computed.rms / measured.rms).ln().abs() <= level;
         let speed_agrees = at_end || (computed.rpm / measured.rpm).ln().abs() <= speed;
         match (level_agrees, speed_agrees) {
-            (true, true) => Verdict::Agrees,
-            (false, true) => Verdict::LevelDiffers,
-            (true, false) => Verdict::SpeedDiffers,
-            (false, false) => Verdict::BothDiffer,
+            (true, true) => Agreement::Agrees,
+            (false, true) => Agreement::LevelDiffers,
+            (true, false) => Agreement::SpeedDiffers,
+            (false, false) => Agreement::BothDiffer,
         }
     };
-    CutAgreement { verdict, noise_limit: uncertain.map(|u| u.noise_limit), level, speed }
+    CutAgreement { finding, noise_limit: uncertain.map(|u| u.noise_limit), level, speed }
 }

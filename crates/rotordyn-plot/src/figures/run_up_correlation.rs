@@ -5,7 +5,7 @@ use super::Named;
 use super::display_unit::{quantity, unit};
 use super::run::{SpectraOfRun, spectrograms};
 use crate::{Curve, Figure, Grid, GridPanel};
-use rotordyn_core::results::{CampbellResult, ChannelPair, CutPair, OrderResult, Verdict};
+use rotordyn_core::results::{Agreement, CampbellResult, ChannelPair, CutPair, OrderResult};
 use rotordyn_core::series::SeriesError;
 use rotordyn_core::study::Machine;
 
@@ -66,15 +66,15 @@ fn cuts(pair: &ChannelPair, machine: &Machine) -> Grid {
 
 /// "agrees: 1x, 7x; below background: 2x", within the uncertainty of the lines.
 fn agreement_note(cuts: &[CutPair]) -> String {
-    let mut groups: Vec<(Verdict, Vec<&str>)> = Vec::new();
+    let mut groups: Vec<(Agreement, Vec<&str>)> = Vec::new();
     for cut in cuts {
-        let verdict = cut.agreement.verdict;
-        match groups.iter_mut().find(|(own, _)| *own == verdict) {
+        let finding = cut.agreement.finding;
+        match groups.iter_mut().find(|(own, _)| *own == finding) {
             Some((_, labels)) => labels.push(&cut.line.label),
-            None => groups.push((verdict, vec![&cut.line.label])),
+            None => groups.push((finding, vec![&cut.line.label])),
         }
     }
     let texts: Vec<String> =
-        groups.iter().map(|(verdict, labels)| format!("{}: {}", verdict.name(), labels.join(", "))).collect();
+        groups.iter().map(|(finding, labels)| format!("{}: {}", finding.name(), labels.join(", "))).collect();
     texts.join("; ")
 }
