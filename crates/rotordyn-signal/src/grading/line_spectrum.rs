@@ -10,16 +10,8 @@ use super::rival_kind::{MAINS, RivalKind};
 /// Lowest background over the highest line: what is 54 dB below it may be its own by-product.
 const DYNAMIC_RANGE: f64 = 2e-3;
 /// Bins averaged for lines that speed and slip smear, with the frequency over bin spacing from which a line
-/// may be that wide (1 % of its frequency, as the fourth harmonic with 2 % of slip from impact to impact), and the
-/// independent values they hold behind a Hann window.
-const WIDTHS: [(usize, f64, f64); 6] = [
-    (1, 0.0, 1.0),
-    (3, 300.0, 1.86),
-    (5, 500.0, 2.87),
-    (9, 900.0, 4.91),
-    (17, 1700.0, 9.0),
-    (31, 3100.0, 16.2),
-];
+/// may be that wide (0.5 % of its frequency), and the independent values they hold behind a Hann window.
+const WIDTHS: [(usize, f64, f64); 4] = [(1, 0.0, 1.0), (3, 300.0, 1.86), (5, 500.0, 2.87), (9, 900.0, 4.91)];
 /// Evidence from which a single peak counts as a line: one noise bin in 2e5 has as much.
 const PEAK_EVIDENCE: f64 = 9.0;
 /// Peaks kept.
