@@ -48,7 +48,8 @@ pub const CASES: &[Case] = &[
         let folder = program::folder(&[]);
         let record = shaft_at_30_hz();
         let Values::Real(values) = &record.values else { unreachable!("a record of time") };
-        let limited = Values::Real(values.iter().map(|v| v.min(0.8)).collect());
+        let highest = values.iter().copied().fold(0.0, f64::max);
+        let limited = Values::Real(values.iter().map(|v| v.min(0.4 * highest)).collect());
         write(folder.path(), "plain.npz", vec![record.clone()]);
         write(folder.path(), "spoiled.npz", vec![Record { values: limited, ..record }]);
         ["plain.npz", "spoiled.npz"]
