@@ -35,7 +35,7 @@
 //!
 //! Plain conditions: 5 s at constant speed, one defect with slip, jitter and load zone, nothing beside it but noise and
 //! shaft lines. Of 400 faults of each part at −10 dB, in percent: named, graded 95 % or above, plain: outer race 96, 87,
-//! 73; inner race 96, 80, 82; ball 91, 88, 25; cage 99, 81, 98.
+//! 73; inner race 96, 78, 82; ball 91, 88, 25; cage 98, 81, 98.
 //! Records of other lengths and rates use the same coefficients.
 
 mod contest;
