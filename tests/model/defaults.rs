@@ -67,6 +67,22 @@ fn given_probes_have_no_others_beside_them() {
     assert_eq!((probes.len(), probes[0].quantity), (1, Quantity::Velocity));
 }
 
+/// BPFO of the 6205 is 3.57: the order spectrum holds its cuts, and a file that excludes one is told so before any run.
+#[test]
+fn order_spectrum_holds_the_highest_cut() {
+    let run = "[speed]\nprofile = \"constant\"\nspeed = \"9 rpm\"\nduration = \"1 s\"\n[study.run_up]\n[study.orders]\n";
+    let highest = |cuts: &str| {
+        let found = load(&format!("{run}cuts = [{cuts}]\n"), &[]).model.studies.orders.unwrap();
+        (found.max_order, found.cuts.iter().copied().fold(0.0, f64::max))
+    };
+    assert_eq!(highest("1, \"2 BPFO\"").0, 20.0);
+    let (max_order, cut) = highest("1, \"9 BPFO\"");
+    assert!(cut > 32.0 && (max_order / cut - 1.1).abs() < 1e-12, "{max_order} {cut}");
+    let text = format!("{HEAD}{run}cuts = [1, \"9 BPFO\"]\nmax_order = 30\n");
+    let errors = model::load("machine.toml", text, &Options::default()).unwrap_err().to_string();
+    assert!(errors.contains("study.orders.max_order is below the cut at order 32.15"), "{errors}");
+}
+
 #[test]
 fn defaults_are_recorded_with_their_keys() {
     let loaded =

@@ -76,7 +76,8 @@ pub fn relative_size<T: ComplexField<RealField = f64> + Copy>(correction: &[T], 
 
 /// Corrects x ← x + A⁻¹ (b − A x) as long as the corrections shrink, and returns the relative error left.
 ///
-/// `correction`: A⁻¹ (b − A x), the residual in twice the precision.
+/// Each correction is smaller than the last by the error of A⁻¹, which the two of them show, and which is the size of the
+/// first: the size of the next is known before it. `correction`: A⁻¹ (b − A x), the residual in twice the precision.
 pub fn refine<T: ComplexField<RealField = f64> + Copy>(
     x: &mut [T],
     mut correction: impl FnMut(&[T]) -> Vec<T>,
@@ -93,8 +94,9 @@ pub fn refine<T: ComplexField<RealField = f64> + Copy>(
         for (x, change) in x.iter_mut().zip(change) {
             *x += change;
         }
-        if size <= CONVERGED {
-            return size;
+        let next = size * (size / last);
+        if next <= CONVERGED {
+            return next;
         }
         last = size;
     }

@@ -8,6 +8,10 @@ const SHARE: f64 = 0.8;
 /// Least number of times that the record is at the limit, and of samples there each time.
 const LEAST_TIMES: usize = 5;
 const SAMPLES_EACH: usize = 3;
+/// Least number of times where it stays there for fewer samples, and the least scatter of the samples before, over the
+/// range: sampled in step with its period, a record has its maximum again and again too, but after the same samples.
+const LEAST_SHORT_TIMES: usize = 12;
+const SCATTER_BEFORE: f64 = 0.02;
 /// Depth over the range to which a record falls between two times at the limit.
 const LEAVES: f64 = 0.25;
 
@@ -52,16 +56,26 @@ fn at_limit(record: &[f64], sorted: &[f64], height: f64, range: f64, sign: f64) 
     if (samples as f64) < SHARE * within(4.0 * height) as f64 {
         return None;
     }
-    let (mut times, mut armed) = (0, true);
-    for x in record {
+    let (mut before, mut armed) = (Vec::new(), true);
+    for (k, x) in record.iter().enumerate() {
         if below(*x) > LEAVES * range {
             armed = true;
         } else if armed && below(*x) <= height {
-            (times, armed) = (times + 1, false);
+            before.push(record[k.saturating_sub(1)]);
+            armed = false;
         }
     }
-    let enough = times >= LEAST_TIMES && samples >= SAMPLES_EACH * times;
+    let times = before.len();
+    let stays = times >= LEAST_TIMES && samples >= SAMPLES_EACH * times;
+    let enough = stays || times >= LEAST_SHORT_TIMES && deviation(&before) > SCATTER_BEFORE * range;
     enough.then_some(Clipping { limit, samples, times })
+}
+
+/// Standard deviation.
+fn deviation(values: &[f64]) -> f64 {
+    let count = values.len().max(1) as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt()
 }
 
 #[cfg(test)]
@@ -93,6 +107,43 @@ mod tests {
             assert!(found.limit == 1.5 && found.times > 200 && found.samples > 3 * found.times, "{found:?}");
             assert_eq!(clipping(&limited(&record, -1.6, 9.0)).unwrap().limit, -1.6);
         }
+    }
+
+    /// Excursions of one or two samples: white noise and a tone near the Nyquist frequency in noise. Not clipped, none of
+    /// a hundred records of noise is named.
+    #[test]
+    fn limit_of_short_excursions_is_found() {
+        let mut state = 3u64;
+        let mut uniform = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        let mut normal = move || (-2.0 * uniform().max(1e-12).ln()).sqrt() * (TAU * uniform()).cos();
+        for tone in [0.0, 3.0] {
+            for _ in 0..50 {
+                let record: Vec<f64> =
+                    (0..10_000).map(|k| tone * (TAU * 0.41 * k as f64).sin() + 0.5 * normal()).collect();
+                assert_eq!(clipping(&record), None);
+                let mut sorted = record.clone();
+                sorted.sort_by(f64::total_cmp);
+                let largest = sorted[9_970];
+                let found = clipping(&limited(&record, -1e9, largest)).unwrap();
+                assert!(found.limit == largest && found.samples < 3 * found.times, "{found:?}");
+            }
+        }
+    }
+
+    /// A periodic record sampled in step with its period has one sample at its maximum each time.
+    #[test]
+    fn maxima_in_step_with_the_sampling_are_no_limit() {
+        let periodic = |k: usize| {
+            let angle = TAU * k as f64 / 12.0;
+            angle.cos() + 0.4 * (3.0 * angle).cos() + 0.2 * (5.0 * angle).cos()
+        };
+        assert_eq!(clipping(&(0..20_000).map(periodic).collect::<Vec<_>>()), None);
+        let pulses: Vec<f64> =
+            (0..20_000usize).map(|k| if k.is_multiple_of(97) { 5.0 } else { 0.0 }).collect();
+        assert_eq!(clipping(&pulses), None);
     }
 
     /// Noise that a recorder adds behind an amplifier at its limit.

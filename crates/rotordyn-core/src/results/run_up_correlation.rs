@@ -95,6 +95,8 @@ impl ChannelPair {
                         .number("correlation", "1", |c| c.correlation)
                         .number("level_uncertainty_db", "dB", |c| c.agreement.level_db())
                         .number("speed_uncertainty", "1", |c| c.agreement.speed)
+                        .optional("measured_noise_limit", "", |c| c.agreement.noise_limit[0])
+                        .optional("computed_noise_limit", "", |c| c.agreement.noise_limit[1])
                         .text("agreement", |c| c.agreement.finding.name())
                 },
             )

@@ -62,13 +62,17 @@ impl UncertainPeak {
         let Some(window) = (0..cut.rpm.len()).min_by(nearest) else {
             return Self { level: f64::INFINITY, speed: f64::INFINITY, noise_limit: None };
         };
-        let own = background.map_or(0.0, |b| b.deviation(peak.rms, window));
-        let level = (own / peak.rms.max(f64::MIN_POSITIVE)).hypot(relative);
-        // Speeds at which the level is that of the maximum within its uncertainty.
-        let floor = peak.rms * (1.0 - CONFIDENCE * level);
-        let as_high = cut.rpm.iter().zip(&cut.rms).filter(|(_, level)| **level >= floor);
+        let deviation = |level: f64, window: usize| {
+            background.map_or(0.0, |b| b.deviation(level, window)).hypot(relative * level)
+        };
+        let own = deviation(peak.rms, window);
+        let level = own / peak.rms.max(f64::MIN_POSITIVE);
+        // Speeds at which the level is that of the maximum within the uncertainty of both.
+        let is_as_high =
+            |k: &usize| peak.rms - cut.rms[*k] <= CONFIDENCE * own.hypot(deviation(cut.rms[*k], *k));
+        let as_high = (0..cut.rpm.len()).filter(is_as_high).map(|k| cut.rpm[k]);
         let (low, high) =
-            as_high.fold((peak.rpm, peak.rpm), |(low, high), (rpm, _)| (low.min(*rpm), high.max(*rpm)));
+            as_high.fold((peak.rpm, peak.rpm), |(low, high), rpm| (low.min(rpm), high.max(rpm)));
         let neighbours = [window.saturating_sub(1), (window + 1).min(cut.rpm.len() - 1)];
         let spacing = 0.5 * (cut.rpm[neighbours[1]] - cut.rpm[neighbours[0]]).abs();
         let speed = (0.5 * (high - low) / CONFIDENCE).max(BETWEEN_WINDOWS * spacing);
