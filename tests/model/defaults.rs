@@ -80,7 +80,7 @@ fn order_spectrum_holds_the_highest_cut() {
     assert!(cut > 32.0 && (max_order / cut - 1.1).abs() < 1e-12, "{max_order} {cut}");
     let text = format!("{HEAD}{run}cuts = [1, \"9 BPFO\"]\nmax_order = 30\n");
     let errors = model::load("machine.toml", text, &Options::default()).unwrap_err().to_string();
-    assert!(errors.contains("study.orders.max_order is below the cut at order 32.15"), "{errors}");
+    assert!(errors.contains("study.orders.max_order is below the cut at order 32.14"), "{errors}");
 }
 
 #[test]

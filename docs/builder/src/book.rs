@@ -3,7 +3,8 @@
 use crate::chapters::{Places, prepare, write_prepared};
 use crate::console::Console;
 use crate::reference::{self, Chapter};
-use crate::{Arguments, links, same_bytes, speed, step_accuracy, validation};
+use crate::step_accuracy::Section;
+use crate::{Arguments, links, same_bytes, scaling, speed, step_accuracy, validation};
 use mdbook_core::config::Config;
 use mdbook_driver::MDBook;
 use serde_json::Value;
@@ -77,8 +78,11 @@ fn build_once(arguments: &Arguments) -> Result<String, String> {
         path: "speed.md".into(),
         text: speed::chapter(kept("times.json").as_deref())?,
     };
-    if let Some(points) = kept("step_accuracy.json") {
-        let section = step_accuracy::section(&points)?;
+    let sections: [(&str, fn(&str) -> Result<Section, String>); 2] =
+        [("step_accuracy.json", step_accuracy::section), ("scaling.json", scaling::section)];
+    for (file, section) in sections {
+        let Some(points) = kept(file) else { continue };
+        let section = section(&points)?;
         speed.text += &section.text;
         for (name, svg) in &section.pictures {
             write_prepared(&format!("pictures/{name}"), svg, &places)?;

@@ -9,6 +9,7 @@ mod links;
 mod math;
 mod reference;
 mod same_bytes;
+mod scaling;
 mod speed;
 mod step_accuracy;
 mod validation;
