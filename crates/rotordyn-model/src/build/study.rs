@@ -217,8 +217,8 @@ keys! {
     /// `[study.orders]`.
     static ORDERS: OrderKeys {
         resolution: Quantity = quantity(positive(NUMBER), "Order resolution.").default("0.05");
-        max_order: Quantity = quantity(positive(NUMBER), "Highest order.")
-            .computed("20, or a tenth above the highest cut").example("20");
+        max_order: Quantity = quantity(positive(NUMBER),
+            "Highest order; if not given, at least a tenth above the highest cut.").default("20");
         cuts: Special = special(ORDER, "Order cuts: levels of these orders over speed.").default("1");
         bandwidth: Quantity = quantity(positive(NUMBER),
             "With it the Vold-Kalman filter also tracks amplitude and phase of the cuts' orders: its -3 dB bandwidth in orders.")
@@ -467,8 +467,10 @@ fn order_spectra(r: &Reader, model: &Model) -> OrderStudy {
     let cuts = orders(r, &ORDERS.cuts, model);
     let highest_cut = cuts.iter().copied().fold(0.0, f64::max);
     let highest = &ORDERS.max_order;
-    let max_order = r.or(highest, (1.1 * highest_cut).max(20.0));
-    if max_order < highest_cut {
+    let mut max_order = r.value(highest);
+    if !r.has(highest) {
+        max_order = max_order.max(1.1 * highest_cut);
+    } else if max_order < highest_cut {
         let message = format!("{} is below the cut at order {highest_cut:.4}", r.name(highest));
         let problem = Problem::new(Kind::OutOfRange, &r.span_of(highest), message);
         r.log.error(problem.hint("raise it, or remove the cut"));
