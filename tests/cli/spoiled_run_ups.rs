@@ -239,4 +239,15 @@ fn agreement_is_in_every_output() {
     assert!(text.contains("within +-") && text.contains("below background"), "{text}");
     let table = std::fs::read_to_string(Path::new(&out).join("csv/run_ups_channels_orders.csv")).unwrap();
     assert!(table.contains("agreement") && table.contains("agrees"), "{table}");
+    // Counted from the right: a text on the left holds a comma.
+    let cells = |line: &str| line.split(',').rev().map(String::from).collect::<Vec<_>>();
+    let mut rows = table.lines().map(cells);
+    let names = rows.next().unwrap();
+    let column = |name: &str| names.iter().position(|own| own == name).unwrap();
+    let [level, limit, agreement] = ["orders_measured_rms", "measured_noise_limit", "agreement"].map(column);
+    let value = |cell: &str| cell.parse::<f64>().unwrap();
+    for row in rows {
+        let stands_out = row[agreement] != "below background";
+        assert_eq!(value(&row[level]) > value(&row[limit]), stands_out, "{row:?}");
+    }
 }
