@@ -12,6 +12,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// Makes a section of the speed chapter from the text of a file.
+type MakeSection = fn(&str) -> Result<Section, String>;
+
 /// The line of `SUMMARY.md` below which the chapters of the model file's tables stand.
 const MODEL_LINE: &str = "  - [Tables](reference/model.md)";
 
@@ -78,7 +81,7 @@ fn build_once(arguments: &Arguments) -> Result<String, String> {
         path: "speed.md".into(),
         text: speed::chapter(kept("times.json").as_deref())?,
     };
-    let sections: [(&str, fn(&str) -> Result<Section, String>); 2] =
+    let sections: [(&str, MakeSection); 2] =
         [("step_accuracy.json", step_accuracy::section), ("scaling.json", scaling::section)];
     for (file, section) in sections {
         let Some(points) = kept(file) else { continue };

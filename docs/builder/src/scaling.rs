@@ -26,7 +26,7 @@ pub fn section(points: &str) -> Result<Section, String> {
     let mut text = String::from(
         "\n## Size of the model\n\nCPU time and peak memory of whole commands on one thread, without figures, start included \
          (`python3 benches/scaling.py`): the rotor of 40 elements with finer meshes and more speeds, the rig with more balls and \
-         longer run-ups. The exponent $p$ of a growth $\\propto n^p$ is that of the last four sizes: 1 is linear. Meshes from \
+         longer run-ups. Of a growth as a power of the size, *p* is the exponent over the last four sizes: 1 is linear. Meshes from \
          about 1000 elements on take more than in proportion, since the condition of their stiffness makes every \
          solution need corrections by residuals in twice the working precision (`refinement.rs`).\n\n",
     );
@@ -38,7 +38,7 @@ pub fn section(points: &str) -> Result<Section, String> {
             text,
             "![CPU time over {grows}](pictures/scaling_{name}_time.svg) \
              ![Memory over {grows}](pictures/scaling_{name}_memory.svg)\n\n\
-             | command | {grows} | CPU \\[s\\] | $p$ | memory \\[MB\\] | $p$ |\n|---|---:|---:|---:|---:|---:|"
+             | command | {grows} | CPU \\[s\\] | *p* | memory \\[MB\\] | *p* |\n|---|---:|---:|---:|---:|---:|"
         );
         for command in own.chunk_by(|a, b| a.command == b.command) {
             let last = &command[command.len() - 1];
