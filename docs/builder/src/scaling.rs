@@ -8,6 +8,9 @@ use std::fmt::Write;
 
 const FILE: &str = "benches/scaling.json";
 
+/// A figure's quantity of a point.
+type Quantity = fn(&Point) -> f64;
+
 /// A command at one size of what grows.
 struct Point {
     grows: String,
@@ -42,7 +45,7 @@ pub fn section(points: &str) -> Result<Section, String> {
         );
         for command in own.chunk_by(|a, b| a.command == b.command) {
             let last = &command[command.len() - 1];
-            let exponent = |of: fn(&Point) -> f64| growth(command, of);
+            let exponent = |of: Quantity| growth(command, of);
             let _ = writeln!(
                 text,
                 "| {} | {} | {:.2} | {:.1} | {:.0} | {:.1} |",
@@ -55,11 +58,11 @@ pub fn section(points: &str) -> Result<Section, String> {
             );
         }
         text.push('\n');
-        for (what, unit, of) in
-            [("time", "s", (|p| p.seconds) as fn(&Point) -> f64), ("memory", "MB", |p| p.megabytes)]
-        {
-            let picture = format!("scaling_{name}_{what}.svg");
-            let svg = picture_of(own, what, unit, of).map_err(|error| format!("{picture}: {error}"))?;
+        let quantities: [(&str, &str, &str, Quantity); 2] =
+            [("time", "CPU time", "s", |p| p.seconds), ("memory", "peak memory", "MB", |p| p.megabytes)];
+        for (file, quantity, unit, of) in quantities {
+            let picture = format!("scaling_{name}_{file}.svg");
+            let svg = picture_of(own, quantity, unit, of).map_err(|error| format!("{picture}: {error}"))?;
             pictures.push((picture, svg));
         }
     }
@@ -67,18 +70,15 @@ pub fn section(points: &str) -> Result<Section, String> {
 }
 
 /// Slope of the logarithm over that of the size, least squares over the last four sizes.
-fn growth(points: &[Point], of: fn(&Point) -> f64) -> f64 {
+fn growth(points: &[Point], of: Quantity) -> f64 {
     let last = &points[points.len().saturating_sub(4)..];
     let pairs: Vec<[f64; 2]> = last.iter().map(|p| [p.size.ln(), of(p).ln()]).collect();
-    let mean = |k: usize| pairs.iter().map(|pair| pair[k]).sum::<f64>() / pairs.len() as f64;
-    let [x, y] = [mean(0), mean(1)];
-    let product = |a: usize, b: usize, at: [f64; 2]| {
-        pairs.iter().map(|pair| (pair[a] - at[0]) * (pair[b] - at[1])).sum::<f64>()
-    };
-    product(0, 1, [x, y]) / product(0, 0, [x, x])
+    let mean = |of: &dyn Fn(&[f64; 2]) -> f64| pairs.iter().map(of).sum::<f64>() / pairs.len() as f64;
+    let [x, y] = [mean(&|p| p[0]), mean(&|p| p[1])];
+    mean(&|p| (p[0] - x) * (p[1] - y)) / mean(&|p| (p[0] - x).powi(2))
 }
 
-fn picture_of(points: &[Point], what: &str, unit: &str, of: fn(&Point) -> f64) -> Result<String, String> {
+fn picture_of(points: &[Point], quantity: &str, unit: &str, of: Quantity) -> Result<String, String> {
     let curves = points.chunk_by(|a, b| a.command == b.command).map(|own| Curve {
         label: own[0].command.clone(),
         x: own.iter().map(|p| p.size).collect(),
@@ -86,9 +86,9 @@ fn picture_of(points: &[Point], what: &str, unit: &str, of: fn(&Point) -> f64) -
         points: true,
     });
     let figure = Figure::Lines(Lines {
-        title: if what == "time" { "CPU time".into() } else { "Peak memory".into() },
+        title: format!("Growth over {}", points[0].grows),
         x_name: points[0].grows.clone(),
-        y_name: if what == "time" { "CPU time".into() } else { "peak memory".into() },
+        y_name: quantity.into(),
         y_unit: unit.into(),
         curves: curves.collect(),
         log_x: true,

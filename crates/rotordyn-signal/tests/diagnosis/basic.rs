@@ -9,7 +9,7 @@ use super::calibration::Outcome;
 use super::generator::Generated;
 
 /// Seed and number of the faults.
-const SEED: u64 = 41;
+const SEED: u64 = 4711;
 const FAULTS: usize = 1600;
 /// Power of the fault over all else \[dB\].
 const SNR: f64 = -10.0;
