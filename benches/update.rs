@@ -86,6 +86,7 @@ fn four_parameters(c: &mut Criterion) {
                 fitting: &Fitting::default(),
                 load: &|set| Ok(rig(set)),
                 max_iterations: 40,
+                fixed: &[],
             };
             black_box(update(&job).expect("an update"))
         });

@@ -1,16 +1,15 @@
 //! What `update` says of its fit: probability of chi^2, culprits of a misfit, groups of parameters, profiles.
 
 use rotordyn::update::culprits::{self, Culprit, CulpritSearch};
+use rotordyn::update::dependence::Dependence;
 use rotordyn::update::goodness::{FitQuality, MIN_PROBABILITY};
 use rotordyn::update::groups::{self, Combination};
 use rotordyn::update::parameter::FreeParameter;
 use rotordyn::update::profile::{Profile, profile};
-use rotordyn::update::{Findings, IdentifiabilityClass, Update, UpdateJob};
+use rotordyn::update::{Findings, IdentifiabilityClass, Outcome, Update, UpdateJob};
 use rotordyn::warning::{Code, Warning};
 
 use super::failure::Failure;
-use super::free_parameters;
-use super::machine::ModelSource;
 use super::terminal::{Terminal, number};
 
 /// Change in standard deviations of the prior above which data and prior are reported as inconsistent.
@@ -34,15 +33,13 @@ pub fn findings(
     terminal: &Terminal,
     job: &UpdateJob,
     found: &Update,
-    origin: &ModelSource,
     names: &[String],
 ) -> Result<Findings, Failure> {
     let mut out =
         Findings { groups: groups::groups(&found.identifiability, job.parameters), ..Findings::default() };
     if found.goodness.is_rejected() {
-        let candidates = free_parameters::candidates(job.parameters, origin)?;
         let bar = terminal.spinner("searching the parameters that explain the misfit");
-        let searched = culprits::search(job, found, &candidates);
+        let searched = culprits::search(job, found);
         bar.finish_and_clear();
         out.culprits = Some(searched?);
     }
@@ -87,9 +84,10 @@ fn per_cent(probability: f64) -> String {
     }
 }
 
-/// Groups, culprits and profiles.
+/// Groups, dependence on fixed values, culprits and profiles.
 pub fn print(terminal: &Terminal, parameters: &[FreeParameter], found: &Update, findings: &Findings) {
     group_table(terminal, parameters, findings);
+    dependence_table(terminal, parameters, found);
     if let Some(search) = &findings.culprits {
         culprit_table(terminal, found, search);
     }
@@ -115,6 +113,49 @@ fn group_table(terminal: &Terminal, parameters: &[FreeParameter], findings: &Fin
         let header = ["combination", "relative changes", "standard error %"];
         terminal.table("Parameters that the data cannot separate", &header, &rows);
     }
+}
+
+/// Relative change of a parameter's value in per cent, for a change of its coordinate.
+fn change_per_cent(parameter: &FreeParameter, from: f64, change: f64) -> f64 {
+    100.0 * (parameter.value(from + change) / parameter.value(from) - 1.0)
+}
+
+/// Parameters whose value depends on one that is not free.
+fn dependent<'a>(
+    parameters: &'a [FreeParameter],
+    found: &'a Update,
+) -> impl Iterator<Item = (&'a FreeParameter, &'a Outcome, &'a Dependence)> {
+    let one = |(p, o): (&'a FreeParameter, &'a Outcome)| Some((p, o, o.depends_on.as_ref()?));
+    parameters.iter().zip(&found.outcomes).filter_map(one)
+}
+
+fn dependence_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
+    let rows: Vec<Vec<String>> = dependent(parameters, found)
+        .map(|(parameter, outcome, dependence)| {
+            vec![
+                parameter.name.clone(),
+                dependence.on.name.clone(),
+                format!("{:+.2}", change_per_cent(&dependence.on, dependence.on.mean, dependence.change)),
+                number(dependence.gain, 3),
+                per_cent(dependence.probability),
+                format!("{:+.2}", change_per_cent(parameter, outcome.x, dependence.shift)),
+                format!("{:+.1}", dependence.shift / outcome.error),
+            ]
+        })
+        .collect();
+    if rows.is_empty() {
+        return;
+    }
+    let header = [
+        "value",
+        "depends on",
+        "its change %",
+        "gain in chi^2",
+        "by chance %",
+        "change of the value %",
+        "in standard errors",
+    ];
+    terminal.table("Values that would change if one parameter more were free (predicted)", &header, &rows);
 }
 
 fn culprit_table(terminal: &Terminal, found: &Update, search: &CulpritSearch) {
@@ -210,6 +251,9 @@ pub fn warn(terminal: &Terminal, parameters: &[FreeParameter], found: &Update, f
             ),
         );
     }
+    for warning in dependence_warnings(parameters, found) {
+        terminal.warn(&warning);
+    }
     for (parameter, outcome) in parameters.iter().zip(&found.outcomes) {
         if outcome.class == IdentifiabilityClass::AtBound {
             terminal.warn_of(
@@ -234,6 +278,39 @@ pub fn warn(terminal: &Terminal, parameters: &[FreeParameter], found: &Update, f
             "the update did not converge: increase --iterations, or reduce the number of free parameters",
         );
     }
+}
+
+/// One warning for every fixed parameter that values depend on.
+fn dependence_warnings(parameters: &[FreeParameter], found: &Update) -> Vec<Warning> {
+    let mut names: Vec<&str> = Vec::new();
+    for (_, _, dependence) in dependent(parameters, found) {
+        if !names.contains(&dependence.on.name.as_str()) {
+            names.push(&dependence.on.name);
+        }
+    }
+    let one = |name: &&str| {
+        let own: Vec<_> = dependent(parameters, found).filter(|(_, _, d)| d.on.name == *name).collect();
+        let values: Vec<String> = own
+            .iter()
+            .map(|(p, o, d)| {
+                let errors = number((d.shift / o.error).abs(), 2);
+                let change = change_per_cent(p, o.x, d.shift);
+                format!("{} by {change:+.1} % ({errors} standard errors)", p.name)
+            })
+            .collect();
+        let dependence = own[0].2;
+        let text = format!(
+            "{name} is not free, but the data would change it by {:+.1} % (chi^2 falls by {}; by chance in {} %) and with \
+             it {}",
+            change_per_cent(&dependence.on, dependence.on.mean, dependence.change),
+            number(dependence.gain, 3),
+            per_cent(dependence.probability),
+            listed(&values)
+        );
+        Warning::new(Code::ModelUpdate, "", text)
+            .advise(format!("free {name} besides, or make sure of its value by another measurement"))
+    };
+    names.iter().map(one).collect()
 }
 
 /// The warning of a model that does not explain the data.

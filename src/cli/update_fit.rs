@@ -23,7 +23,7 @@ use super::failure::Failure;
 use super::machine::ModelSource;
 use super::measured::{self, band};
 use super::terminal::{Terminal, number};
-use super::{ehl_films, update_findings};
+use super::{ehl_films, free_parameters, update_findings};
 
 /// Where models with other values come from.
 pub struct UpdateContext<'a> {
@@ -66,6 +66,8 @@ pub struct Fit {
     pub read: TestData,
     fitting: Fitting,
     iterations: usize,
+    /// Parameters that are not free but could be.
+    fixed: Vec<FreeParameter>,
     pub found: Update,
     before: Frfs,
     after: Frfs,
@@ -95,6 +97,7 @@ impl Fit {
                     .into()
             }));
         }
+        let fixed = free_parameters::candidates(&parameters, context.origin)?;
         let bar = context.terminal.spinner("updating");
         let found = update(&UpdateJob {
             parameters: &parameters,
@@ -102,12 +105,14 @@ impl Fit {
             fitting: &fitting,
             load: &|set| context.load(set),
             max_iterations: args.iterations,
+            fixed: &fixed,
         });
         bar.finish_and_clear();
         let found = context.terminal.unless_stopped(found)?;
         let frfs = |state| Ok::<_, UpdateFailure>(Correlation::new(&read.target, state)?.frfs);
         let (before, after) = (frfs(&found.before)?, frfs(&found.after)?);
-        Ok(Self { title, parameters, read, fitting, iterations: args.iterations, found, before, after })
+        let iterations = args.iterations;
+        Ok(Self { title, parameters, read, fitting, iterations, fixed, found, before, after })
     }
 
     /// Groups of parameters, profiles of those named, and culprits if the model does not explain the data.
@@ -118,15 +123,10 @@ impl Fit {
             fitting: &self.fitting,
             load: &|set| context.load(set),
             max_iterations: self.iterations,
+            fixed: &self.fixed,
         };
         let terminal = context.terminal;
-        terminal.unless_stopped(update_findings::findings(
-            terminal,
-            &job,
-            &self.found,
-            context.origin,
-            profile,
-        ))
+        terminal.unless_stopped(update_findings::findings(terminal, &job, &self.found, profile))
     }
 
     /// The measurement beside the model before and after.
@@ -278,6 +278,12 @@ fn parameter_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Up
         "  prior variance left = posterior variance / prior variance. Identifiable: at most 10 % left and a standard\n  \
          error of at most 10 %; poorly identifiable: at most 50 % left; otherwise not identifiable, start value kept",
     );
+    if found.outcomes.iter().any(|outcome| outcome.depends_on.is_some()) {
+        terminal.print(
+            "  depends on a fixed value: the data would change a parameter that is not free, and this value with it by more\n  \
+             than one standard error",
+        );
+    }
     if found.goodness.is_rejected() {
         terminal.print(
             "  poor fit: the model does not explain the data, so that no parameter is identified; the standard errors do not\n  \

@@ -180,6 +180,51 @@ fn culprit_of_a_misfit_is_named_with_its_value() {
 }
 
 /// A plausible fit has no culprits; its profiles have intervals about the true value, and figures.
+/// Young's modulus and the diameter of the shaft absorb a pulley 3 % lighter so well that chi^2 is smaller than its degrees
+/// of freedom.
+#[test]
+fn values_that_depend_on_a_fixed_mass_are_not_identifiable() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("truth");
+    let mut modal = rotordyn();
+    modal.args([
+        "modal",
+        RIG,
+        "--speed",
+        "0 rpm",
+        "--no-figures",
+        "--set",
+        "disc.pulley.mass=0.97 kg",
+        "--out",
+    ]);
+    modal.arg(&out).assert().success();
+    let update = |free: &str| {
+        let mut command = rotordyn();
+        command
+            .args(["update", RIG, "--no-figures", "--free", free, "--measured"])
+            .arg(out.join("results.h5"));
+        json_of(command.arg("--out").arg(folder.path()))
+    };
+    let document = update("material.steel.young,shaft.section.0.outer_diameter");
+    assert!(document["chi_squared_probability"].as_f64().unwrap() > 0.5, "{document}");
+    for (k, row) in document["parameters"].as_array().unwrap().iter().enumerate() {
+        assert_eq!(row["identifiability"], "depends on a fixed value");
+        let dependence = &document["dependences"][k];
+        assert_eq!(dependence["depends_on"], "disc.pulley.mass");
+        let number = |key: &str| dependence[key].as_f64().unwrap();
+        // Both values were right at the start.
+        assert!((number("depends_on_predicted") - 0.97).abs() < 0.002, "{dependence}");
+        let [start, value] = ["start", "value"].map(|key| row[key].as_f64().unwrap());
+        assert!((number("value_predicted") - start).abs() < 0.1 * (value - start).abs(), "{dependence}");
+    }
+    assert!(document["warnings"].to_string().contains("disc.pulley.mass is not free"), "{document}");
+    // Of the parameters that are right none has a warning.
+    let document = update("disc.pulley.mass,material.steel.young,shaft.section.0.outer_diameter");
+    assert!(document["dependences"].is_null(), "{document}");
+    assert_eq!(document["parameters"][0]["identifiability"], "identifiable");
+    assert!(!document["warnings"].to_string().contains("is not free"), "{document}");
+}
+
 #[test]
 fn profiles_of_a_plausible_fit() {
     let folder = tempfile::tempdir().unwrap();

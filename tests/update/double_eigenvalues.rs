@@ -121,6 +121,7 @@ fn bearings_and_shaft_from_rotated_shapes_of_mode_pairs() {
             fitting: &fitting,
             load: &rotor,
             max_iterations: 30,
+            fixed: &[],
         };
         let found = update(&job).unwrap();
         println!("{angle}: {:?}", found.outcomes);

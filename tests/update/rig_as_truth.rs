@@ -3,10 +3,11 @@
 use std::sync::LazyLock;
 
 use rotordyn::linalg::Complex64;
-use rotordyn::model::{Model, Options, load, parameter_paths::resolve_parameter_path};
+use rotordyn::model::parameter_paths::{all_values, resolve_parameter_path};
+use rotordyn::model::{Model, Options, load};
 use rotordyn::signal::record::Dof;
 use rotordyn::update::UpdateError;
-use rotordyn::update::parameter::{FreeParameter, ModelNumber};
+use rotordyn::update::parameter::{FreeParameter, ModelNumber, candidates};
 use rotordyn::update::residual::Fitting;
 use rotordyn::update::state::ModelState;
 use rotordyn::update::target::{Target, TargetMode, sensors};
@@ -117,8 +118,18 @@ fn updated(paths: &[&str], fitting: Fitting) -> (Vec<FreeParameter>, Update) {
 /// Updates the nominal rig and prints the result.
 pub fn fitted(paths: &[&str], fitting: Fitting, target: &Target) -> (Vec<FreeParameter>, Update) {
     let parameters: Vec<FreeParameter> = paths.iter().map(|path| free(path)).collect();
-    let job =
-        UpdateJob { parameters: &parameters, target, fitting: &fitting, load: &load_rig, max_iterations: 30 };
+    let values = all_values(RIG.as_bytes(), &Options::default()).unwrap();
+    let numbers: Vec<ModelNumber> =
+        values.iter().filter_map(|v| ModelNumber::read(&v.path, &v.text, v.quoted)).collect();
+    let fixed = candidates(&numbers, &parameters);
+    let job = UpdateJob {
+        parameters: &parameters,
+        target,
+        fitting: &fitting,
+        load: &load_rig,
+        max_iterations: 30,
+        fixed: &fixed,
+    };
     let found = update(&job).unwrap();
     for (p, o) in parameters.iter().zip(&found.outcomes) {
         println!(

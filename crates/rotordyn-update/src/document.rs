@@ -2,6 +2,7 @@
 
 use super::correlation::Correlation;
 use super::culprits::{Culprit, CulpritSearch};
+use super::dependence::Dependence;
 use super::goodness::FitQuality;
 use super::groups::{Combination, Group};
 use super::parameter::FreeParameter;
@@ -29,11 +30,16 @@ impl Update {
         frf_difference_db: Option<[f64; 2]>,
     ) -> Document<'a> {
         let rows: Vec<_> = parameters.iter().zip(&self.outcomes).collect();
+        let dependent: Vec<_> =
+            rows.iter().filter_map(|(p, o)| Some((*p, *o, o.depends_on.as_ref()?))).collect();
         let (count, found) = (parameters.len(), &self.identifiability);
         let square = |rows: &[Vec<f64>]| Array::real(&[count, count], "1", rows.concat());
         let of_parameters = |name: &str| named(name, format!("parameters/{name}"));
         Document::new()
             .table("parameters", parameter_rows(&rows))
+            .and_if((!dependent.is_empty()).then_some(()), |document, ()| {
+                document.table("dependences", dependence_rows(&dependent))
+            })
             .numbers(of_parameters("singular_values"), "1", found.singular_values.clone())
             .array(of_parameters("singular_vectors"), square(&found.directions))
             .array(of_parameters("correlation"), square(&found.correlation))
@@ -143,4 +149,20 @@ fn parameter_rows<'a, 'r>(
         .number("standard_error", unit, |(p, o)| (o.error * p.derivative(o.fitted)).abs())
         .number("prior_variance_fraction", "1", |(_, o)| o.prior_share)
         .text("identifiability", |(_, o)| o.class.label())
+}
+
+/// Values that depend on a parameter that is not free.
+fn dependence_rows<'a, 'r>(
+    rows: &'r [(&'r FreeParameter, &'r Outcome, &'r Dependence)],
+) -> Rows<'a, 'r, (&'r FreeParameter, &'r Outcome, &'r Dependence)> {
+    let unit = "in the parameter's unit";
+    Rows::of(rows)
+        .text("name", |(p, _, _)| &p.name)
+        .text("depends_on", |(_, _, d)| &d.on.name)
+        .number("depends_on_value", unit, |(_, _, d)| d.on.value(d.on.mean))
+        .number("depends_on_predicted", unit, |(_, _, d)| d.on.value(d.on.mean + d.change))
+        .number("chi_squared_gain", "1", |(_, _, d)| d.gain)
+        .number("probability_by_chance", "1", |(_, _, d)| d.probability)
+        .number("value_predicted", unit, |(p, o, d)| p.value(o.x + d.shift))
+        .number("shift_in_standard_errors", "1", |(_, o, d)| d.shift / o.error)
 }

@@ -14,13 +14,16 @@
 //! | [`least_squares`] | Levenberg-Marquardt with bounds and priors |
 //! | [`identifiability`] | identifiability, standard errors and correlation of the parameters |
 //! | [`goodness`], [`chi_squared`] | whether the fitted model explains the data: probability of χ² |
+//! | [`dependence`] | fitted values that depend on parameters that are not free |
 //! | [`culprits`] | parameters that are not free and would explain a misfit |
+//! | `score_test` | gain of one more free parameter, without a fit |
 //! | [`groups`] | parameters that the data cannot separate |
 //! | [`profile`] | profile likelihood of a parameter, its 68 % and 95 % intervals |
 
 pub mod chi_squared;
 pub mod correlation;
 pub mod culprits;
+pub mod dependence;
 mod document;
 mod error;
 pub mod force_levels;
@@ -35,11 +38,13 @@ pub mod profile;
 mod repeated;
 pub mod residual;
 mod residual_rows;
+mod score_test;
 pub mod state;
 pub mod target;
 
 use rayon::prelude::*;
 
+use dependence::{Dependence, dependences};
 pub use document::Findings;
 pub use error::{UpdateError, UpdateFailure};
 use goodness::GoodnessOfFit;
@@ -51,6 +56,7 @@ use rotordyn_core::analysis::ball_inertia::{ball_inertia, is_undecided, with_dec
 use rotordyn_core::analysis::sensitivity::SystemDerivative;
 use rotordyn_core::assembly::Assembly;
 use rotordyn_core::model::Model;
+use score_test::Point;
 use state::ModelState;
 use target::Target;
 
@@ -64,6 +70,9 @@ pub struct UpdateJob<'a> {
     pub fitting: &'a Fitting,
     pub load: &'a ModelLoader<'a>,
     pub max_iterations: usize,
+    /// Parameters that are not free but may be wrong, such as [`parameter::candidates`]: a value that depends on one of them
+    /// is not identifiable, and a misfit is searched among them. Empty: all that is not free is taken as exact.
+    pub fixed: &'a [FreeParameter],
 }
 
 /// Identifiability class of a parameter.
@@ -77,6 +86,8 @@ pub enum IdentifiabilityClass {
     NotIdentifiable,
     /// The fit ended at a bound.
     AtBound,
+    /// The data would also change a parameter that is not free, and this value with it ([`dependence`]).
+    DependsOnFixed,
     /// The fitted model does not explain the data: the value stands for an error of the model elsewhere.
     PoorFit,
 }
@@ -89,8 +100,14 @@ impl IdentifiabilityClass {
             IdentifiabilityClass::PoorlyIdentifiable => "poorly identifiable",
             IdentifiabilityClass::NotIdentifiable => "not identifiable",
             IdentifiabilityClass::AtBound => "at bound",
+            IdentifiabilityClass::DependsOnFixed => "depends on a fixed value",
             IdentifiabilityClass::PoorFit => "poor fit",
         }
+    }
+
+    /// Whether the value is that of the fit, and not known to be wrong.
+    fn is_fitted(self) -> bool {
+        matches!(self, IdentifiabilityClass::Identifiable | IdentifiabilityClass::PoorlyIdentifiable)
     }
 }
 
@@ -106,6 +123,8 @@ pub struct Outcome {
     pub error: f64,
     /// Ratio of posterior to prior variance.
     pub prior_share: f64,
+    /// The parameter that is not free and that the value depends on, if the model explains the data.
+    pub depends_on: Option<Dependence>,
 }
 
 /// Result of a model update.
@@ -146,7 +165,8 @@ impl Outcome {
 
 /// Fits the free parameters; those not identifiable are reset to their start, the others fitted again.
 ///
-/// If the fitted model does not explain the data (probability of χ² below 1 %), no parameter is identifiable.
+/// If the fitted model does not explain the data (probability of χ² below 1 %), no parameter is identifiable; otherwise none
+/// that depends on a parameter that is not free.
 ///
 /// # Errors
 /// No mode pair to fit, more parameters than data, parameters without influence, no equilibrium at the start.
@@ -208,8 +228,8 @@ fn update_decided(job: &UpdateJob) -> Result<Update, UpdateFailure> {
     let mut iterations = fit.iterations;
     let mut converged = fit.converged;
     let mut evaluation = fit.evaluation;
+    let mut constrained = prior.clone();
     if kept.len() < x.len() {
-        let mut constrained = prior.clone();
         for j in (0..x.len()).filter(|j| !kept.contains(j)) {
             x[j] = prior.mean[j];
             (constrained.lower[j], constrained.upper[j]) = (x[j], x[j]);
@@ -225,19 +245,27 @@ fn update_decided(job: &UpdateJob) -> Result<Update, UpdateFailure> {
         state = job.state(&x)?;
     }
     let goodness = GoodnessOfFit::new(&evaluation, &prior, &kept);
+    let at = Point { parameters: job.parameters.to_vec(), prior: constrained, x };
+    let mut depends_on = vec![None; classes.len()];
     if goodness.is_rejected() {
-        use IdentifiabilityClass::{Identifiable, PoorFit, PoorlyIdentifiable};
-        for class in classes.iter_mut().filter(|class| matches!(class, Identifiable | PoorlyIdentifiable)) {
-            *class = PoorFit;
+        classes.iter_mut().filter(|c| c.is_fitted()).for_each(|c| *c = IdentifiabilityClass::PoorFit);
+    } else if classes.iter().any(|class| class.is_fitted()) {
+        depends_on = dependences(job, &at, &fitted_modes, &estimate.errors, &goodness)?;
+        for (class, found) in classes.iter_mut().zip(&mut depends_on) {
+            match found {
+                Some(_) if class.is_fitted() => *class = IdentifiabilityClass::DependsOnFixed,
+                _ => *found = None,
+            }
         }
     }
-    let outcomes = (0..x.len())
-        .map(|j| Outcome {
+    let outcomes = (depends_on.into_iter().enumerate())
+        .map(|(j, depends_on)| Outcome {
             class: classes[j],
-            x: x[j],
+            x: at.x[j],
             fitted: fit.x[j],
             error: estimate.errors[j],
             prior_share: estimate.prior_share[j],
+            depends_on,
         })
         .collect();
     Ok(Update {
