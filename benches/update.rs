@@ -1,10 +1,10 @@
 //! Model updating of the rig with four free parameters, including reading the file; limit 5 s.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use rotordyn::model::parameter_paths::resolve_parameter_path;
+use rotordyn::model::parameter_paths::{all_values, resolve_parameter_path};
 use rotordyn::model::{Model, Options, load};
 use rotordyn::signal::record::Dof;
-use rotordyn::update::parameter::{FreeParameter, ModelNumber};
+use rotordyn::update::parameter::{FreeParameter, ModelNumber, candidates};
 use rotordyn::update::residual::Fitting;
 use rotordyn::update::state::ModelState;
 use rotordyn::update::target::{Target, TargetMode, sensors};
@@ -78,19 +78,27 @@ fn four_parameters(c: &mut Criterion) {
         .collect();
     let mut group = c.benchmark_group("update");
     group.sample_size(10);
-    group.bench_function("rig, four parameters", |b| {
-        b.iter(|| {
-            let job = UpdateJob {
-                parameters: &parameters,
-                target: &target,
-                fitting: &Fitting::default(),
-                load: &|set| Ok(rig(set)),
-                max_iterations: 40,
-                fixed: &[],
-            };
-            black_box(update(&job).expect("an update"))
+    let values = all_values(RIG.as_bytes(), &Options::default()).expect("numbers of the rig");
+    let numbers: Vec<ModelNumber> =
+        values.iter().filter_map(|v| ModelNumber::read(&v.path, &v.text, v.quoted)).collect();
+    let fixed = candidates(&numbers, &parameters);
+    for (name, fixed) in
+        [("rig, four parameters", &[][..]), ("rig, four parameters, the fixed ones tried", &fixed)]
+    {
+        group.bench_function(name, |b| {
+            b.iter(|| {
+                let job = UpdateJob {
+                    parameters: &parameters,
+                    target: &target,
+                    fitting: &Fitting::default(),
+                    load: &|set| Ok(rig(set)),
+                    max_iterations: 40,
+                    fixed,
+                };
+                black_box(update(&job).expect("an update"))
+            });
         });
-    });
+    }
     group.finish();
 }
 

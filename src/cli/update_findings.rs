@@ -1,6 +1,7 @@
 //! What `update` says of its fit: probability of chi^2, culprits of a misfit, groups of parameters, profiles.
 
 use rotordyn::update::culprits::{self, Culprit, CulpritSearch};
+use rotordyn::update::data_kind::KindFit;
 use rotordyn::update::dependence::Dependence;
 use rotordyn::update::goodness::{FitQuality, MIN_PROBABILITY};
 use rotordyn::update::groups::{self, Combination};
@@ -62,6 +63,18 @@ pub fn print_fit(terminal: &Terminal, found: &Update) {
         found.iterations.len() - 1,
         if found.converged { "" } else { ", not converged" }
     ));
+    if goodness.by_kind.len() > 1 {
+        let one = |fit: &KindFit| {
+            let [chi_squared, degrees] = [fit.chi_squared, fit.degrees_of_freedom].map(|v| number(v, 3));
+            let probability = match fit.is_tested() {
+                true => format!("{} %", per_cent(fit.probability())),
+                false => "not tested".into(),
+            };
+            format!("{} {chi_squared} with {degrees} ({probability})", fit.kind.label())
+        };
+        let kinds: Vec<String> = goodness.by_kind.iter().map(one).collect();
+        terminal.print(&format!("  of these, {}", kinds.join(", ")));
+    }
     match goodness.quality() {
         FitQuality::DeviationsTooLarge => terminal.print_wrapped(
             "The differences left are smaller than the standard deviations of the data (1 % or less of all fits are that \
@@ -316,13 +329,26 @@ fn dependence_warnings(parameters: &[FreeParameter], found: &Update) -> Vec<Warn
 /// The warning of a model that does not explain the data.
 fn lack_of_fit(found: &Update, search: Option<&CulpritSearch>) -> Warning {
     let goodness = &found.goodness;
+    let all = (
+        "data",
+        [goodness.chi_squared, goodness.degrees_of_freedom],
+        [goodness.probability(), MIN_PROBABILITY],
+    );
+    let (data, [chi_squared, degrees], [probability, limit]) = match goodness.misfit_kind() {
+        Some(fit) if goodness.probability() >= MIN_PROBABILITY => (
+            fit.kind.label(),
+            [fit.chi_squared, fit.degrees_of_freedom],
+            [fit.probability(), goodness.min_kind_probability()],
+        ),
+        _ => all,
+    };
     let text = format!(
-        "the updated model does not explain the data: chi^2 = {} with {} degrees of freedom has a probability of {} % \
+        "the updated model does not explain the {data}: chi^2 = {} with {} degrees of freedom has a probability of {} % \
          (at least {} % expected); no parameter is identified, and the standard errors do not cover the error of the model",
-        number(goodness.chi_squared, 3),
-        number(goodness.degrees_of_freedom, 3),
-        per_cent(goodness.probability()),
-        number(100.0 * MIN_PROBABILITY, 1)
+        number(chi_squared, 3),
+        number(degrees, 3),
+        per_cent(probability),
+        number(100.0 * limit, 2)
     );
     let explaining: Vec<String> = search
         .iter()

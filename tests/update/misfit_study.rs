@@ -293,12 +293,13 @@ impl Machine {
                 off.len()
             );
         }
+        let improbable = || cases.iter().filter(|case| case.is_improbable());
         let rates = Rates {
             within: share(off.iter().filter(|z| z.abs() <= 2.0).count(), off.len()),
             identifiable: off.len(),
             named: share(
-                cases.iter().filter(|case| case.rejected && case.off.is_empty()).count(),
-                cases.iter().filter(|case| case.is_improbable()).count(),
+                improbable().filter(|case| case.rejected && case.off.is_empty()).count(),
+                improbable().count(),
             ),
             culprit: hits(|case| case.hit),
             searched,

@@ -6,11 +6,12 @@ use rayon::prelude::*;
 
 use super::goodness::GoodnessOfFit;
 use super::identifiability::identifiability;
+use super::job::{UpdateJob, decided, fit};
 use super::least_squares::Solution;
 use super::parameter::{FreeParameter, prior};
 pub use super::score_test::MAX_CANDIDATES;
 use super::score_test::{MIN_GAIN, Point, Score};
-use super::{Update, UpdateFailure, UpdateJob, decided, fit};
+use super::{Update, UpdateFailure};
 
 /// Candidates fitted in earnest: those of the largest predicted gains.
 const MAX_REFITS: usize = 8;

@@ -4,11 +4,12 @@
 //! vanish when one parameter more is free, and the fitted values may move by many standard errors then. So every parameter
 //! that is not free is tried by its score test (`score_test.rs`), whose gain has one degree of freedom.
 
+use super::UpdateFailure;
 use super::chi_squared::upper_probability;
 use super::goodness::{FitQuality, GoodnessOfFit};
+use super::job::UpdateJob;
 use super::parameter::FreeParameter;
 use super::score_test::{MIN_GAIN, Point, Scores};
-use super::{UpdateFailure, UpdateJob};
 
 /// Change of a value in its standard errors, above which it depends on a parameter that is not free.
 const MIN_SHIFT: f64 = 1.0;

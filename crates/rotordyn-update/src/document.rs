@@ -2,6 +2,7 @@
 
 use super::correlation::Correlation;
 use super::culprits::{Culprit, CulpritSearch};
+use super::data_kind::KindFit;
 use super::dependence::Dependence;
 use super::goodness::FitQuality;
 use super::groups::{Combination, Group};
@@ -40,6 +41,7 @@ impl Update {
             .and_if((!dependent.is_empty()).then_some(()), |document, ()| {
                 document.table("dependences", dependence_rows(&dependent))
             })
+            .numbers(of_parameters("standard_error_scale"), "1", found.scale.clone())
             .numbers(of_parameters("singular_values"), "1", found.singular_values.clone())
             .array(of_parameters("singular_vectors"), square(&found.directions))
             .array(of_parameters("correlation"), square(&found.correlation))
@@ -47,7 +49,7 @@ impl Update {
             .number(of_parameters("degrees_of_freedom"), "1", self.goodness.degrees_of_freedom)
             .number(of_parameters("chi_squared_probability"), "1", self.goodness.probability())
             .text(of_parameters("fit"), self.goodness.quality().label())
-            .number(of_parameters("standard_error_scale"), "1", found.inflation)
+            .table("fit_by_kind", kind_rows(&self.goodness.by_kind))
             .flag(of_parameters("standard_errors_valid"), self.goodness.quality() != FitQuality::NotExplained)
             .flag(of_parameters("converged"), self.converged)
             .integer(of_parameters("iterations"), self.iterations.len() - 1)
@@ -149,6 +151,15 @@ fn parameter_rows<'a, 'r>(
         .number("standard_error", unit, |(p, o)| (o.error * p.derivative(o.fitted)).abs())
         .number("prior_variance_fraction", "1", |(_, o)| o.prior_share)
         .text("identifiability", |(_, o)| o.class.label())
+}
+
+fn kind_rows<'a, 'r>(rows: &'r [KindFit]) -> Rows<'a, 'r, KindFit> {
+    Rows::of(rows)
+        .text("kind", |fit| fit.kind.label())
+        .number("data", "1", |fit| fit.data)
+        .number("chi_squared", "1", |fit| fit.chi_squared)
+        .number("degrees_of_freedom", "1", |fit| fit.degrees_of_freedom)
+        .number("chi_squared_probability", "1", |fit| fit.probability())
 }
 
 /// Values that depend on a parameter that is not free.

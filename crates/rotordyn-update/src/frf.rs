@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::UpdateFailure;
+use super::data_kind::DataKind;
 use super::residual_rows::ResidualRows;
 use super::state::ModelState;
 use super::target::{Sensor, TargetFrfs};
@@ -74,13 +75,18 @@ pub(super) fn frf_rows(
             let noise = random_error_variance(measured, r, e, line) * seen.share;
             let variance = shared[k] * model + noise;
             let size = variance.sqrt();
-            rows.data += (model + noise) / variance * if fitting.complex { 2.0 } else { 1.0 };
+            let data = (model + noise) / variance * if fitting.complex { 2.0 } else { 1.0 };
+            rows.count(DataKind::Frf, data);
             let slopes = || found.derivatives.iter().map(|s| s[r][e][k]);
-            rows.push(seen.magnitude() / size, slopes().map(|s| seen.magnitude_derivative(s) / size));
+            rows.push(
+                DataKind::Frf,
+                seen.magnitude() / size,
+                slopes().map(|s| seen.magnitude_derivative(s) / size),
+            );
             if fitting.complex {
                 let (apart, slope) = (seen.phase_residual() / size, |s| seen.phase_derivative(s) / size);
-                rows.push(apart.re, slopes().map(|s| slope(s).re));
-                rows.push(apart.im, slopes().map(|s| slope(s).im));
+                rows.push(DataKind::Frf, apart.re, slopes().map(|s| slope(s).re));
+                rows.push(DataKind::Frf, apart.im, slopes().map(|s| slope(s).im));
             }
         }
     }

@@ -93,7 +93,6 @@ mod tests {
     use crate::identifiability::identifiability;
     use crate::least_squares::{Evaluation, Prior};
     use crate::parameter::ModelNumber;
-    use nalgebra::DVector;
 
     /// Groups of a fit with these sensitivities (rows: data of unit deviation) and priors of a factor of two.
     fn of(jacobian: &[&[f64]]) -> Vec<Group> {
@@ -105,11 +104,9 @@ mod tests {
                 FreeParameter::new("p", vec![place], true, None).unwrap()
             })
             .collect();
-        let at = Evaluation {
-            residual: DVector::zeros(jacobian.len()),
-            jacobian: DMatrix::from_fn(jacobian.len(), n, |i, j| jacobian[i][j]),
-            data: jacobian.len() as f64,
-        };
+        let rows = jacobian.len();
+        let jacobian = DMatrix::from_fn(rows, n, |i, j| jacobian[i][j]);
+        let at = Evaluation::of_frequencies(vec![0.0; rows], jacobian);
         let prior = Prior {
             mean: vec![0.0; n],
             deviation: vec![std::f64::consts::LN_2; n],

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::UpdateFailure;
+use super::data_kind::DataKind;
 
 /// Normal priors x ~ N(mean, deviation²), and bounds.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,9 +20,25 @@ pub struct Evaluation {
     pub residual: DVector<f64>,
     /// ∂r_i/∂x_j.
     pub jacobian: DMatrix<f64>,
-    /// Effective number of data: a shape counts as one whatever its points; so do the lines of all FRFs near
+    /// Kind of every residual.
+    pub kinds: Vec<DataKind>,
+    /// Effective number of data of each kind: a shape counts as one whatever its points; so do the lines of all FRFs near
     /// one frequency if the model error exceeds the noise.
-    pub data: f64,
+    pub data: [f64; DataKind::COUNT],
+}
+
+impl Evaluation {
+    /// Residuals that are data of one kind, each by itself.
+    #[cfg(test)]
+    pub fn of_frequencies(residual: Vec<f64>, jacobian: DMatrix<f64>) -> Self {
+        let count = residual.len();
+        Self {
+            residual: DVector::from_vec(residual),
+            jacobian,
+            kinds: vec![DataKind::Frequency; count],
+            data: [count as f64, 0.0, 0.0, 0.0],
+        }
+    }
 }
 
 /// State after an iteration.
@@ -160,11 +177,8 @@ mod tests {
     use super::*;
 
     fn rosenbrock(x: &[f64]) -> Result<Evaluation, UpdateFailure> {
-        Ok(Evaluation {
-            residual: DVector::from_vec(vec![10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]]),
-            jacobian: DMatrix::from_row_slice(2, 2, &[-20.0 * x[0], 10.0, -1.0, 0.0]),
-            data: 2.0,
-        })
+        let jacobian = DMatrix::from_row_slice(2, 2, &[-20.0 * x[0], 10.0, -1.0, 0.0]);
+        Ok(Evaluation::of_frequencies(vec![10.0 * (x[1] - x[0] * x[0]), 1.0 - x[0]], jacobian))
     }
 
     fn prior(deviation: f64, upper: f64) -> Prior {
@@ -195,11 +209,7 @@ mod tests {
     fn prior_weighted_like_a_datum() {
         // One datum x = 1 ± 0.5 against the prior 0 ± 1: the mean weighted by 4 to 1.
         let mut datum = |x: &[f64]| {
-            Ok(Evaluation {
-                residual: DVector::from_vec(vec![(x[0] - 1.0) / 0.5]),
-                jacobian: DMatrix::from_element(1, 1, 2.0),
-                data: 1.0,
-            })
+            Ok(Evaluation::of_frequencies(vec![(x[0] - 1.0) / 0.5], DMatrix::from_element(1, 1, 2.0)))
         };
         let one = Prior { mean: vec![0.0], deviation: vec![1.0], lower: vec![-9.0], upper: vec![9.0] };
         let found = minimise(&[0.0], &one, 50, &mut datum).unwrap();

@@ -8,11 +8,13 @@
 //! | [`state`] | the model's modes at the measured points, paired |
 //! | [`correlation`] | measured and computed modes and FRFs side by side: MAC, FRAC |
 //! | [`force_levels`] | shift of measured natural frequencies with the force level |
+//! | `job` | what is fitted to what, and the fit of any choice of parameters |
 //! | [`parameter`] | free parameters: numbers of the model file, single or grouped |
 //! | [`residual`] | residuals of frequencies, damping and shapes, with exact sensitivities |
 //! | [`frf`] | residuals of FRFs: selected lines and their weights |
 //! | [`least_squares`] | Levenberg-Marquardt with bounds and priors |
 //! | [`identifiability`] | identifiability, standard errors and correlation of the parameters |
+//! | [`data_kind`] | kinds of the data, and the misfit of each |
 //! | [`goodness`], [`chi_squared`] | whether the fitted model explains the data: probability of χ² |
 //! | [`dependence`] | fitted values that depend on parameters that are not free |
 //! | [`culprits`] | parameters that are not free and would explain a misfit |
@@ -23,6 +25,7 @@
 pub mod chi_squared;
 pub mod correlation;
 pub mod culprits;
+pub mod data_kind;
 pub mod dependence;
 mod document;
 mod error;
@@ -31,6 +34,7 @@ pub mod frf;
 pub mod goodness;
 pub mod groups;
 pub mod identifiability;
+mod job;
 pub mod least_squares;
 pub mod pairing;
 pub mod parameter;
@@ -42,38 +46,16 @@ mod score_test;
 pub mod state;
 pub mod target;
 
-use rayon::prelude::*;
-
 use dependence::{Dependence, dependences};
 pub use document::Findings;
 pub use error::{UpdateError, UpdateFailure};
 use goodness::GoodnessOfFit;
 use identifiability::{Identifiability, MAX_PRIOR_SHARE, MAX_RELATIVE_ERROR, PRIOR_DOMINATED_SHARE};
-use least_squares::{Evaluation, Iteration, Prior, minimise};
-use parameter::FreeParameter;
-use residual::{Fitting, evaluate_residuals};
-use rotordyn_core::analysis::ball_inertia::{ball_inertia, is_undecided, with_decisions};
-use rotordyn_core::analysis::sensitivity::SystemDerivative;
-use rotordyn_core::assembly::Assembly;
-use rotordyn_core::model::Model;
+pub use job::{ModelLoader, UpdateJob, settings};
+use job::{data_count, decided, fit};
+use least_squares::Iteration;
 use score_test::Point;
 use state::ModelState;
-use target::Target;
-
-/// Builds the model with parameter values (path, value) overridden.
-pub type ModelLoader<'a> = dyn Fn(&[(String, String)]) -> Result<Model, UpdateError> + Sync + 'a;
-
-/// Input of a model update.
-pub struct UpdateJob<'a> {
-    pub parameters: &'a [FreeParameter],
-    pub target: &'a Target,
-    pub fitting: &'a Fitting,
-    pub load: &'a ModelLoader<'a>,
-    pub max_iterations: usize,
-    /// Parameters that are not free but may be wrong, such as [`parameter::candidates`]: a value that depends on one of them
-    /// is not identifiable, and a misfit is searched among them. Empty: all that is not free is taken as exact.
-    pub fixed: &'a [FreeParameter],
-}
 
 /// Identifiability class of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -174,21 +156,6 @@ pub fn update(job: &UpdateJob) -> Result<Update, UpdateFailure> {
     decided(job, update_decided)
 }
 
-/// Calls `with` on the job with the decisions on ball inertia of its first model, for all steps.
-pub(crate) fn decided<T>(
-    job: &UpdateJob,
-    with: impl FnOnce(&UpdateJob) -> Result<T, UpdateFailure>,
-) -> Result<T, UpdateFailure> {
-    let first = (job.load)(&settings(job.parameters, &parameter::prior(job.parameters).mean))?;
-    if !is_undecided(&first) {
-        return with(job);
-    }
-    let used = ball_inertia(&first, &Assembly::new(&first)?, job.target.speed, None);
-    let load =
-        |settings: &[(String, String)]| (job.load)(settings).map(|model| with_decisions(&model, &used));
-    with(&UpdateJob { load: &load, ..*job })
-}
-
 fn update_decided(job: &UpdateJob) -> Result<Update, UpdateFailure> {
     let prior = parameter::prior(job.parameters);
     let start: Vec<f64> = prior.mean.clone();
@@ -210,24 +177,24 @@ fn update_decided(job: &UpdateJob) -> Result<Update, UpdateFailure> {
         )
         .into());
     }
-    let mut fit = fit(job, &prior, &start, &fitted_modes)?;
+    let mut best = fit(job, &prior, &start, &fitted_modes)?;
     // With the improved model more measured modes may be paired.
-    let mut state = job.state(&fit.x)?;
+    let mut state = job.state(&best.x)?;
     let now: Vec<usize> = state.pairing.pairs.iter().map(|p| p.measured).collect();
     if now.len() > fitted_modes.len() {
         fitted_modes = now;
-        fit = self::fit(job, &prior, &fit.x.clone(), &fitted_modes)?;
-        state = job.state(&fit.x)?;
+        best = fit(job, &prior, &best.x.clone(), &fitted_modes)?;
+        state = job.state(&best.x)?;
     }
-    let estimate = identifiability::identifiability(&fit.evaluation, &prior);
+    let estimate = identifiability::identifiability(&best.evaluation, &prior);
     let mut classes: Vec<IdentifiabilityClass> =
-        (0..job.parameters.len()).map(|j| classify(job, &fit.x, &estimate, j)).collect();
+        (0..job.parameters.len()).map(|j| classify(job, &best.x, &estimate, j)).collect();
     let kept: Vec<usize> =
-        (0..fit.x.len()).filter(|&j| classes[j] != IdentifiabilityClass::NotIdentifiable).collect();
-    let mut x = fit.x.clone();
-    let mut iterations = fit.iterations;
-    let mut converged = fit.converged;
-    let mut evaluation = fit.evaluation;
+        (0..best.x.len()).filter(|&j| classes[j] != IdentifiabilityClass::NotIdentifiable).collect();
+    let mut x = best.x.clone();
+    let mut iterations = best.iterations;
+    let mut converged = best.converged;
+    let mut evaluation = best.evaluation;
     let mut constrained = prior.clone();
     if kept.len() < x.len() {
         for j in (0..x.len()).filter(|j| !kept.contains(j)) {
@@ -237,7 +204,7 @@ fn update_decided(job: &UpdateJob) -> Result<Update, UpdateFailure> {
         if kept.is_empty() {
             evaluation = job.evaluate(&x, &fitted_modes)?;
         } else {
-            let again = self::fit(job, &constrained, &x, &fitted_modes)?;
+            let again = fit(job, &constrained, &x, &fitted_modes)?;
             (x, evaluation) = (again.x, again.evaluation);
             iterations.extend(again.iterations);
             converged &= again.converged;
@@ -262,7 +229,7 @@ fn update_decided(job: &UpdateJob) -> Result<Update, UpdateFailure> {
         .map(|(j, depends_on)| Outcome {
             class: classes[j],
             x: at.x[j],
-            fitted: fit.x[j],
+            fitted: best.x[j],
             error: estimate.errors[j],
             prior_share: estimate.prior_share[j],
             depends_on,
@@ -279,98 +246,6 @@ fn update_decided(job: &UpdateJob) -> Result<Update, UpdateFailure> {
         data,
         goodness,
     })
-}
-
-/// Paths and values of all parameters.
-pub fn settings(parameters: &[FreeParameter], x: &[f64]) -> Vec<(String, String)> {
-    parameters.iter().zip(x).flat_map(|(p, x)| p.settings(*x)).collect()
-}
-
-impl UpdateJob<'_> {
-    pub(crate) fn state(&self, x: &[f64]) -> Result<ModelState, UpdateFailure> {
-        ModelState::new((self.load)(&settings(self.parameters, x))?, self.target, None)
-    }
-
-    /// Derivatives dM, dD and dS by every coordinate at x.
-    fn derivatives(&self, x: &[f64], state: &ModelState) -> Result<Vec<SystemDerivative>, UpdateFailure> {
-        let all = settings(self.parameters, x);
-        let one = |parameter: &FreeParameter, x: f64| self.derivative(&all, parameter, x, state);
-        self.parameters.par_iter().zip(x).map(|(p, x)| one(p, *x)).collect()
-    }
-
-    /// Derivatives dM, dD and dS of the model with settings `all` by the coordinate of a parameter at x.
-    pub(crate) fn derivative(
-        &self,
-        all: &[(String, String)],
-        parameter: &FreeParameter,
-        x: f64,
-        state: &ModelState,
-    ) -> Result<SystemDerivative, UpdateFailure> {
-        let (sides, width) = parameter.difference_settings(x);
-        let model = |own: &[(String, String)]| (self.load)(&[all, own].concat());
-        Ok(state.linearised.derivative(&model(&sides[0])?, &model(&sides[1])?, width)?)
-    }
-
-    /// Residuals of the modes `kept` and of the FRFs at x, with their derivatives.
-    pub(crate) fn evaluate(&self, x: &[f64], kept: &[usize]) -> Result<Evaluation, UpdateFailure> {
-        let state = self.state(x)?;
-        let by = self.derivatives(x, &state)?;
-        evaluate_residuals(&state, self.target, self.fitting, kept, &by)
-    }
-}
-
-/// Fits the parameters to the modes `kept` and the FRFs.
-pub(crate) fn fit(
-    job: &UpdateJob,
-    prior: &Prior,
-    start: &[f64],
-    kept: &[usize],
-) -> Result<least_squares::Solution, UpdateFailure> {
-    let mut first = true;
-    let mut evaluate = |x: &[f64]| -> Result<Evaluation, UpdateFailure> {
-        let found = job.evaluate(x, kept)?;
-        if std::mem::take(&mut first) {
-            check_influence(job, &found, prior)?;
-        }
-        Ok(found)
-    };
-    minimise(start, prior, job.max_iterations, &mut evaluate)
-}
-
-/// Minimum influence: change of the weighted residuals per prior standard deviation of a parameter.
-const MIN_INFLUENCE: f64 = 1e-4;
-
-/// Error if no parameter influences the data; single ones without influence stay at their start.
-fn check_influence(job: &UpdateJob, at: &Evaluation, prior: &Prior) -> Result<(), UpdateError> {
-    let without: Vec<&str> = (0..job.parameters.len())
-        .filter(|&j| at.jacobian.column(j).norm() * prior.deviation[j] < MIN_INFLUENCE)
-        .map(|j| job.parameters[j].name.as_str())
-        .collect();
-    if without.len() < job.parameters.len() {
-        return Ok(());
-    }
-    let (verb, it) = if without.len() == 1 { ("has", "it affects") } else { ("have", "they affect") };
-    Err(UpdateError::new(
-        format!("{} {verb} no influence on the fitted data", without.join(" and ")),
-        format!("free other parameters, or fit data that {it} (--fit damping, --fit frf)"),
-    ))
-}
-
-/// Number of independent data: frequencies, damping ratios, shapes except for their scale, FRF lines.
-fn data_count(job: &UpdateJob, kept: &[usize]) -> usize {
-    let fitting = job.fitting;
-    let mut count = 0;
-    for mode in kept.iter().map(|&k| &job.target.modes[k]) {
-        count += usize::from(fitting.frequency.is_some());
-        count += usize::from(fitting.damping.is_some() && mode.damping_ratio.is_some());
-        if fitting.shape.is_some() {
-            count += mode.shape.len().saturating_sub(1);
-        }
-    }
-    if let (Some(frf), Some(measured)) = (&fitting.frf, &job.target.frfs) {
-        count += frf::data_count(measured, frf);
-    }
-    count
 }
 
 fn classify(job: &UpdateJob, x: &[f64], estimate: &Identifiability, j: usize) -> IdentifiabilityClass {

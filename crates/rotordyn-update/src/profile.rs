@@ -5,9 +5,10 @@
 //! which the data depend nonlinearly, and it is open where they do not bound the parameter. Source: Venzon & Moolgavkar,
 //! *Applied Statistics* 37 (1988), 87–94.
 
+use super::job::{UpdateJob, decided, fit};
 use super::least_squares::Solution;
 use super::parameter::prior;
-use super::{Update, UpdateFailure, UpdateJob, decided, fit};
+use super::{Update, UpdateFailure};
 
 /// Increase of χ² at the ends of the 68.3 % interval.
 pub const DELTA_68: f64 = 1.0;
@@ -70,7 +71,7 @@ impl Profiler<'_> {
         let parameter = &self.job.parameters[j];
         let outcomes = &self.found.outcomes;
         let start: Vec<f64> = outcomes.iter().map(|outcome| outcome.fitted).collect();
-        let scale = self.found.identifiability.inflation.powi(2);
+        let scale = self.found.identifiability.scale[j].powi(2);
         // Without its prior the parameter can leave the range in which it has an influence.
         let reach = 4.0 * parameter.deviation;
         let (lower, upper) =

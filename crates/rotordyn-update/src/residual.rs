@@ -1,9 +1,9 @@
 //! Residuals (weighted differences of model and measurement) with their derivatives.
 
 use super::residual_rows::ResidualRows;
-use nalgebra::{DMatrix, DVector};
 
 use super::UpdateFailure;
+use super::data_kind::DataKind;
 use super::frf::{FrfFitting, frf_rows};
 use super::least_squares::Evaluation;
 use super::state::ModelState;
@@ -54,7 +54,7 @@ pub fn evaluate_residuals(
     by: &[SystemDerivative],
 ) -> Result<Evaluation, UpdateFailure> {
     let by: Vec<&SystemDerivative> = by.iter().collect();
-    let mut rows = ResidualRows { residual: Vec::new(), slopes: Vec::new(), data: 0.0 };
+    let mut rows = ResidualRows::default();
     for &k in fitted_modes.iter().filter(|_| fitting.modes()) {
         let measured = &target.modes[k];
         let found = state.pairing.pairs.iter().find(|p| p.measured == k);
@@ -67,12 +67,7 @@ pub fn evaluate_residuals(
     if let (Some(frf), Some(measured)) = (&fitting.frf, &target.frfs) {
         frf_rows(state, measured, frf, &by, &mut rows)?;
     }
-    let columns = by.len();
-    Ok(Evaluation {
-        jacobian: DMatrix::from_fn(rows.slopes.len(), columns, |i, j| rows.slopes[i][j]),
-        residual: DVector::from_vec(rows.residual),
-        data: rows.data,
-    })
+    Ok(rows.evaluation(by.len()))
 }
 
 fn mode_rows(
@@ -96,8 +91,8 @@ fn mode_rows(
     if let Some(least) = fitting.frequency {
         let deviation = least.max(measured.frequency_error / measured.frequency_hz);
         let residual = (mode.frequency_hz() / measured.frequency_hz).ln() / deviation;
-        rows.push(residual, slopes.iter().map(|s| s.im / value.im / deviation));
-        rows.data += 1.0;
+        rows.push(DataKind::Frequency, residual, slopes.iter().map(|s| s.im / value.im / deviation));
+        rows.count(DataKind::Frequency, 1.0);
     }
     if let (Some(least), Some(zeta)) = (fitting.damping, measured.damping_ratio.filter(|z| *z > 0.0)) {
         let deviation = least.max(measured.damping_error / zeta);
@@ -107,8 +102,8 @@ fn mode_rows(
             let size = value.norm();
             (-s.re / size + value.re * (value.conj() * s).re / size.powi(3)) / own / deviation
         };
-        rows.push((own / zeta).ln() / deviation, slopes.iter().map(slope));
-        rows.data += 1.0;
+        rows.push(DataKind::Damping, (own / zeta).ln() / deviation, slopes.iter().map(slope));
+        rows.count(DataKind::Damping, 1.0);
     }
     if let Some(least) = fitting.shape
         && measured.shape.len() > 1
@@ -116,7 +111,7 @@ fn mode_rows(
         // All points together count as one datum, √(1 − MAC)/σ.
         let changes = sensitivity.shape_derivatives(by)?;
         shape_rows(&state.sensor_rows, &state.shapes[place], &measured.shape, &changes, least, rows);
-        rows.data += 1.0;
+        rows.count(DataKind::Shape, 1.0);
     }
     Ok(())
 }
@@ -146,7 +141,7 @@ fn shape_rows(
         .collect();
     for (i, (m, c)) in m.iter().zip(computed).enumerate() {
         let residual = m - alpha * c;
-        rows.push(residual.re / deviation, slopes.iter().map(|s| s[i].re / deviation));
-        rows.push(residual.im / deviation, slopes.iter().map(|s| s[i].im / deviation));
+        rows.push(DataKind::Shape, residual.re / deviation, slopes.iter().map(|s| s[i].re / deviation));
+        rows.push(DataKind::Shape, residual.im / deviation, slopes.iter().map(|s| s[i].im / deviation));
     }
 }

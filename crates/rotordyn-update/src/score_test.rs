@@ -12,10 +12,11 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 
+use super::UpdateFailure;
+use super::job::{UpdateJob, settings};
 use super::least_squares::{Evaluation, Prior};
 use super::parameter::FreeParameter;
 use super::residual::evaluate_residuals;
-use super::{UpdateFailure, UpdateJob, settings};
 
 /// Largest number of candidates that are tried.
 pub const MAX_CANDIDATES: usize = 200;
@@ -186,7 +187,7 @@ mod tests {
                 0.0, 3.0, 1.0, 1.5,
             ],
         );
-        let at = Evaluation { residual: residual.clone(), jacobian, data: 3.0 };
+        let at = Evaluation::of_frequencies(residual.iter().copied().collect(), jacobian);
         let own = Prior { mean: vec![0.1], deviation: vec![0.5], lower: vec![-9.0], upper: vec![9.0] };
         let point = Point { parameters: vec![parameter("free", 0.5)], prior: own, x: vec![0.3] };
         let candidates = [parameter("a", 0.7), parameter("b", 0.7), parameter("c", 0.7)];
