@@ -15,8 +15,6 @@ const TOLERANCE: f64 = 1e-11;
 /// Ritz pairs with a larger residual are spurious (the operator is highly non-normal); those converging to a
 /// true eigenvalue fall below it long before higher ones have converged.
 const MAX_RITZ_RESIDUAL: f64 = 1e-3;
-/// Below this many unknowns the dense solver is as fast.
-const DENSE_BELOW: usize = 24;
 
 /// An eigenpair of (λ² M + λ C + K) φ = 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -163,9 +161,6 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(part: &'a CoupledGroup) -> Result<Self, EigenError> {
-        if part.order() <= DENSE_BELOW {
-            return Self::dense(part);
-        }
         Ok(Self { part, converged: Vec::new(), reach: 0.0, arnoldi: Some(Arnoldi::new(part)?) })
     }
 
