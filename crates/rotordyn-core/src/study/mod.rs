@@ -20,6 +20,7 @@ mod order_agreement;
 mod order_tracking;
 mod probe_filter;
 mod record;
+pub mod record_requirements;
 mod responses;
 mod run_up_comparison;
 mod run_up_correlation;
