@@ -87,7 +87,6 @@ fn check(origin: &ModelSource, variant: &str) -> Result<CheckedVariant, Failure>
     let loaded = origin.load(&[])?;
     let side_files = origin.side_file_sizes()?;
     let machine = Machine::new(loaded.model.clone())?;
-    forecast::check_record_needs(&machine, &Study::ALL)?;
     let free = rigid_body_modes::rigid_body_modes_of_machine(&machine.model, &machine.assembly)?;
     let full = &machine.assembly.full_mass;
     // Unit rigid-body translation u along x: uᵀ M u is the total mass.

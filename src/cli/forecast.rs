@@ -17,11 +17,10 @@ use super::terminal::{Terminal, number};
 /// Computing time from which a warning is given \[s\].
 const LONG: f64 = 3600.0;
 
-/// Refuses matrices beyond the memory, results beyond the free disk space and records that do not suit their studies, and
-/// warns of more than an hour.
+/// Refuses matrices beyond the memory and results beyond the free disk space, and warns of more than an hour.
 ///
 /// # Errors
-/// A machine with too many degrees of freedom for a study. A run-up too short or sampled too slowly for its studies. Results larger than the free space of the folder's file system, before anything is written.
+/// A machine with too many degrees of freedom for a study. Results larger than the free space of the folder's file system, before anything is written.
 pub fn examine(
     machine: &Machine,
     wanted: &[Study],
@@ -29,7 +28,6 @@ pub fn examine(
     terminal: &Terminal,
 ) -> Result<(), Failure> {
     wanted.iter().try_for_each(|study| machine.check_memory(study.name()))?;
-    check_record_needs(machine, wanted)?;
     let is_wanted = |found: &Forecast| wanted.iter().any(|study| study.name() == found.study);
     let mut all = machine.forecasts();
     all.retain(is_wanted);
@@ -75,21 +73,6 @@ pub fn examine(
         );
     }
     Ok(())
-}
-
-/// Refuses a run-up whose record does not suit a study of it that is wanted too.
-pub fn check_record_needs(machine: &Machine, wanted: &[Study]) -> Result<(), Failure> {
-    let is_wanted = |name: &str| wanted.iter().any(|study| study.name() == name);
-    if !is_wanted(Study::RunUp.name()) {
-        return Ok(());
-    }
-    let unmet = machine.unmet_record_needs();
-    let lines: Vec<String> = unmet
-        .iter()
-        .filter(|need| is_wanted(need.study))
-        .map(|need| format!("study.{}: {}; {}", need.study, need.error, need.advice))
-        .collect();
-    if lines.is_empty() { Ok(()) } else { Err(Failure::Input(lines.join("\n"))) }
 }
 
 /// Table of the forecasts of all requested studies.

@@ -129,45 +129,6 @@ fn impossible_steps_and_rates_are_refused_by_key() {
     }
 }
 
-/// The ramp of 0.37 s to 25 rev/s makes 4.6 revolutions and 1111 samples.
-#[test]
-fn run_ups_that_do_not_suit_their_studies_are_refused() {
-    let case = Case::new();
-    let rate = "study.run_up.sample_rate=\"3 kHz\"";
-    for (flags, parts) in [
-        (
-            ["study.orders.resolution=0.2", rate],
-            &["study.orders: the shaft turns 4.62", "5.000 are needed", "study.orders.resolution"][..],
-        ),
-        (
-            ["study.orders.max_order=50", rate],
-            &["3000 Hz", "needs at least 3200.0 Hz", "study.run_up.sample_rate"],
-        ),
-        (
-            ["study.spectrogram.length=\"0.4 s\"", rate],
-            &["study.spectrogram: record has 1111 samples", "1200 are needed", "study.spectrogram.length"],
-        ),
-        // All at once.
-        (
-            ["study.orders.resolution=0.001", "study.orders.max_order=500"],
-            &["1000.000 are needed", "32000.0 Hz"],
-        ),
-    ] {
-        let flags: Vec<&str> = flags.iter().flat_map(|setting| ["--set", setting]).collect();
-        for command in ["run-up", "run", "check"] {
-            let text = case.refused(command, &flags, 2);
-            for part in parts {
-                assert!(text.contains(part), "{command} {flags:?}: {part} is not in\n{text}");
-            }
-        }
-    }
-    // Just enough is computed; other studies do not ask.
-    let enough = ["study.orders.resolution=0.25", "study.orders.max_order=40", "study.orders.cuts=[1]"];
-    let flags: Vec<&str> = enough.iter().flat_map(|setting| ["--set", setting]).collect();
-    case.command("run-up", &flags).assert().success();
-    case.command("frf", &["--set", "study.orders.resolution=0.001"]).assert().success();
-}
-
 /// Free bytes of a folder's file system, by df.
 fn free_bytes(folder: &std::path::Path) -> f64 {
     let output = Command::new("df").args(["-P", "-k"]).arg(folder).output().unwrap();

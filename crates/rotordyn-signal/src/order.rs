@@ -40,26 +40,6 @@ impl OrderSettings {
             min_speed: 0.05,
         }
     }
-
-    /// Lowest sampling rate \[Hz\] that contains the highest order at a speed \[rev/s\].
-    pub fn needed_sample_rate(&self, fastest: f64) -> f64 {
-        SAMPLES_PER_ORDER * self.max_order * fastest
-    }
-
-    /// Revolutions without a stop of one window.
-    pub fn needed_revolutions(&self) -> f64 {
-        self.resolution.recip()
-    }
-}
-
-/// Error of a run too slow in its sampling for the highest order.
-pub fn rate_too_low(given: f64, needed: f64) -> SignalError {
-    SignalError::RateTooLow { given, needed, purpose: "the highest order at the highest speed" }
-}
-
-/// Error of a run of too few revolutions for the order resolution.
-pub fn too_few_revolutions(given: f64, needed: f64) -> SignalError {
-    SignalError::TooFewRevolutions { given, needed, purpose: "one window of this order resolution" }
 }
 
 /// Order spectrogram: amplitudes over speed and order.
@@ -151,13 +131,17 @@ impl OrderTracker {
                 first += hop;
             }
         }
-        let needed = settings.needed_sample_rate((per_revolution as f64 * fastest).recip());
+        let needed = SAMPLES_PER_ORDER * max_order / (per_revolution as f64 * fastest);
         if needed > sample_rate {
-            return Err(rate_too_low(sample_rate, needed));
+            let purpose = "the highest order at the highest speed";
+            return Err(SignalError::RateTooLow { given: sample_rate, needed, purpose });
         }
         if windows.is_empty() {
-            let turned = longest as f64 / per_revolution as f64;
-            return Err(too_few_revolutions(turned, settings.needed_revolutions()));
+            return Err(SignalError::TooFewRevolutions {
+                needed: 1.0 / resolution,
+                given: longest as f64 / per_revolution as f64,
+                purpose: "one window of this order resolution",
+            });
         }
         let transform = SegmentTransform::new(settings.window, length, length);
         Ok(OrderTracker { settings, resampler, transform, hop, windows, times, rpm })

@@ -20,7 +20,6 @@ mod order_agreement;
 mod order_tracking;
 mod probe_filter;
 mod record;
-pub mod record_requirements;
 mod responses;
 mod run_up_comparison;
 mod run_up_correlation;
