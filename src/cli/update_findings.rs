@@ -2,12 +2,11 @@
 
 use rotordyn::update::culprits::{self, Culprit, CulpritSearch};
 use rotordyn::update::data_kind::KindFit;
-use rotordyn::update::dependence::Dependence;
 use rotordyn::update::goodness::{FitQuality, MIN_PROBABILITY};
 use rotordyn::update::groups::{self, Combination};
 use rotordyn::update::parameter::FreeParameter;
 use rotordyn::update::profile::{Profile, profile};
-use rotordyn::update::{Findings, IdentifiabilityClass, Outcome, Update, UpdateJob};
+use rotordyn::update::{Findings, IdentifiabilityClass, Update, UpdateJob};
 use rotordyn::warning::{Code, Warning};
 
 use super::failure::Failure;
@@ -133,17 +132,9 @@ fn change_per_cent(parameter: &FreeParameter, from: f64, change: f64) -> f64 {
     100.0 * (parameter.value(from + change) / parameter.value(from) - 1.0)
 }
 
-/// Parameters whose value depends on one that is not free.
-fn dependent<'a>(
-    parameters: &'a [FreeParameter],
-    found: &'a Update,
-) -> impl Iterator<Item = (&'a FreeParameter, &'a Outcome, &'a Dependence)> {
-    let one = |(p, o): (&'a FreeParameter, &'a Outcome)| Some((p, o, o.depends_on.as_ref()?));
-    parameters.iter().zip(&found.outcomes).filter_map(one)
-}
-
 fn dependence_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
-    let rows: Vec<Vec<String>> = dependent(parameters, found)
+    let rows: Vec<Vec<String>> = found
+        .dependences(parameters)
         .map(|(parameter, outcome, dependence)| {
             vec![
                 parameter.name.clone(),
@@ -189,7 +180,7 @@ fn culprit_table(terminal: &Terminal, found: &Update, search: &CulpritSearch) {
             c.parameter.name.clone(),
             text(from),
             text(to),
-            format!("{:+.1}", 100.0 * (to / from - 1.0)),
+            format!("{:+.1}", change_per_cent(&c.parameter, c.parameter.mean, c.x - c.parameter.mean)),
             number(c.gain, 3),
             number(c.goodness.chi_squared, 3),
             per_cent(c.goodness.probability()),
@@ -296,13 +287,13 @@ pub fn warn(terminal: &Terminal, parameters: &[FreeParameter], found: &Update, f
 /// One warning for every fixed parameter that values depend on.
 fn dependence_warnings(parameters: &[FreeParameter], found: &Update) -> Vec<Warning> {
     let mut names: Vec<&str> = Vec::new();
-    for (_, _, dependence) in dependent(parameters, found) {
+    for (_, _, dependence) in found.dependences(parameters) {
         if !names.contains(&dependence.on.name.as_str()) {
             names.push(&dependence.on.name);
         }
     }
     let one = |name: &&str| {
-        let own: Vec<_> = dependent(parameters, found).filter(|(_, _, d)| d.on.name == *name).collect();
+        let own: Vec<_> = found.dependences(parameters).filter(|(_, _, d)| d.on.name == *name).collect();
         let values: Vec<String> = own
             .iter()
             .map(|(p, o, d)| {
@@ -321,7 +312,7 @@ fn dependence_warnings(parameters: &[FreeParameter], found: &Update) -> Vec<Warn
             listed(&values)
         );
         Warning::new(Code::ModelUpdate, "", text)
-            .advise(format!("free {name} besides, or make sure of its value by another measurement"))
+            .advise(format!("free {name} too, or make sure of its value by another measurement"))
     };
     names.iter().map(one).collect()
 }
@@ -357,7 +348,7 @@ fn lack_of_fit(found: &Update, search: Option<&CulpritSearch>) -> Warning {
             format!(
                 "{} ({:+.1} %)",
                 c.parameter.name,
-                100.0 * (c.parameter.value(c.x) / c.parameter.value(0.0) - 1.0)
+                change_per_cent(&c.parameter, c.parameter.mean, c.x - c.parameter.mean)
             )
         })
         .collect();

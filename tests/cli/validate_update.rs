@@ -179,7 +179,6 @@ fn culprit_of_a_misfit_is_named_with_its_value() {
     }
 }
 
-/// A plausible fit has no culprits; its profiles have intervals about the true value, and figures.
 /// Young's modulus and the diameter of the shaft absorb a pulley 3 % lighter so well that chi^2 is smaller than its degrees
 /// of freedom.
 #[test]
@@ -225,6 +224,7 @@ fn values_that_depend_on_a_fixed_mass_are_not_identifiable() {
     assert!(!document["warnings"].to_string().contains("is not free"), "{document}");
 }
 
+/// A plausible fit has no culprits; its profiles have intervals about the true value, and figures.
 #[test]
 fn profiles_of_a_plausible_fit() {
     let folder = tempfile::tempdir().unwrap();

@@ -4,7 +4,6 @@
 //! among the first three proposed.
 
 use rotordyn::linalg::Complex64;
-use rotordyn::model::parameter_paths::all_values;
 use rotordyn::model::{Model, Options, load};
 use rotordyn::signal::record::Dof;
 use rotordyn::update::culprits::{self, Culprit};
@@ -13,6 +12,8 @@ use rotordyn::update::residual::Fitting;
 use rotordyn::update::state::ModelState;
 use rotordyn::update::target::{Target, TargetMode, sensors};
 use rotordyn::update::{IdentifiabilityClass, UpdateError, UpdateJob, update};
+
+use crate::rig_as_truth::numbers;
 
 /// A machine of the study.
 struct Machine {
@@ -137,11 +138,6 @@ impl Machine {
         loaded.map(|loaded| loaded.model).map_err(|e| UpdateError::new(e.to_string(), "other values"))
     }
 
-    fn numbers(&self) -> Vec<ModelNumber> {
-        let values = all_values(self.text.as_bytes(), &Options::default()).unwrap();
-        values.iter().filter_map(|v| ModelNumber::read(&v.path, &v.text, v.quoted)).collect()
-    }
-
     /// Modes of a model with normal noise: frequencies 0.1 %, the deviation that the fit assumes; each shape of the stated
     /// size of √(1 − MAC).
     fn measured(&self, model: Model, random: &mut Random, shape_noise: f64) -> Target {
@@ -183,7 +179,7 @@ impl Machine {
     /// One perturbed machine.
     fn case(&self, seed: u64) -> Case {
         let random = &mut Random(seed);
-        let numbers = self.numbers();
+        let numbers = numbers(self.text);
         let places: Vec<&ModelNumber> = self
             .changes
             .iter()

@@ -104,6 +104,12 @@ pub fn free(path: &str) -> FreeParameter {
     FreeParameter::new(path, places, true, None).unwrap()
 }
 
+/// All numbers of a model file.
+pub fn numbers(text: &str) -> Vec<ModelNumber> {
+    let values = all_values(text.as_bytes(), &Options::default()).unwrap();
+    values.iter().filter_map(|v| ModelNumber::read(&v.path, &v.text, v.quoted)).collect()
+}
+
 pub fn load_rig(set: &[(String, String)]) -> Result<Model, UpdateError> {
     let options = Options { variant: None, set: set.to_vec() };
     Ok(load("overhung_rig.toml", &*RIG, &options).unwrap_or_else(|errors| panic!("{errors:?}")).model)
@@ -118,10 +124,7 @@ fn updated(paths: &[&str], fitting: Fitting) -> (Vec<FreeParameter>, Update) {
 /// Updates the nominal rig and prints the result.
 pub fn fitted(paths: &[&str], fitting: Fitting, target: &Target) -> (Vec<FreeParameter>, Update) {
     let parameters: Vec<FreeParameter> = paths.iter().map(|path| free(path)).collect();
-    let values = all_values(RIG.as_bytes(), &Options::default()).unwrap();
-    let numbers: Vec<ModelNumber> =
-        values.iter().filter_map(|v| ModelNumber::read(&v.path, &v.text, v.quoted)).collect();
-    let fixed = candidates(&numbers, &parameters);
+    let fixed = candidates(&numbers(&RIG), &parameters);
     let job = UpdateJob {
         parameters: &parameters,
         target,

@@ -131,7 +131,7 @@ impl Point {
         refits: usize,
     ) -> Result<Ranking, UpdateFailure> {
         let job = self.job(job);
-        let scores = self.scores(&job, modes, candidates)?;
+        let scores = self.scores(&job, &job.state(&self.x)?, modes, candidates)?;
         let before = (scores.chi_squared, scores.chi_squared + self.penalty());
         let refitted: Vec<Option<(f64, Culprit, Point)>> = scores
             .best(refits)

@@ -10,6 +10,7 @@ use super::goodness::{FitQuality, GoodnessOfFit};
 use super::job::UpdateJob;
 use super::parameter::FreeParameter;
 use super::score_test::{MIN_GAIN, Point, Scores};
+use super::state::ModelState;
 
 /// Change of a value in its standard errors, above which it depends on a parameter that is not free.
 const MIN_SHIFT: f64 = 1.0;
@@ -32,7 +33,7 @@ pub struct Dependence {
 /// What each free parameter at a solution depends on most, of the parameters that are not free.
 ///
 /// A value depends on a parameter whose release would lower χ² by at least 6.635 (probability 1 % by chance) and move the
-/// value by more than one standard error, `errors`. Where the stated deviations of the data are too large, their scale is
+/// value by more than one standard error, `errors`; `state`: the model at the solution. Where the stated deviations of the data are too large, their scale is
 /// taken from the misfit: the likelihood ratio is then ν ln(χ²/(χ² − gain)).
 ///
 /// # Errors
@@ -40,6 +41,7 @@ pub struct Dependence {
 pub(crate) fn dependences(
     job: &UpdateJob,
     at: &Point,
+    state: &ModelState,
     modes: &[usize],
     errors: &[f64],
     goodness: &GoodnessOfFit,
@@ -47,7 +49,7 @@ pub(crate) fn dependences(
     if job.fixed.is_empty() {
         return Ok(vec![None; errors.len()]);
     }
-    let scores = at.scores(job, modes, job.fixed)?;
+    let scores = at.scores(job, state, modes, job.fixed)?;
     Ok(strongest(&scores, job.fixed, errors, goodness))
 }
 

@@ -31,8 +31,7 @@ impl Update {
         frf_difference_db: Option<[f64; 2]>,
     ) -> Document<'a> {
         let rows: Vec<_> = parameters.iter().zip(&self.outcomes).collect();
-        let dependent: Vec<_> =
-            rows.iter().filter_map(|(p, o)| Some((*p, *o, o.depends_on.as_ref()?))).collect();
+        let dependent: Vec<_> = self.dependences(parameters).collect();
         let (count, found) = (parameters.len(), &self.identifiability);
         let square = |rows: &[Vec<f64>]| Array::real(&[count, count], "1", rows.concat());
         let of_parameters = |name: &str| named(name, format!("parameters/{name}"));

@@ -54,6 +54,7 @@ use identifiability::{Identifiability, MAX_PRIOR_SHARE, MAX_RELATIVE_ERROR, PRIO
 pub use job::{ModelLoader, UpdateJob, settings};
 use job::{data_count, decided, fit};
 use least_squares::Iteration;
+use parameter::FreeParameter;
 use score_test::Point;
 use state::ModelState;
 
@@ -130,6 +131,15 @@ impl Update {
     /// Final coordinates.
     pub fn x(&self) -> Vec<f64> {
         self.outcomes.iter().map(|outcome| outcome.x).collect()
+    }
+
+    /// Parameters whose value depends on one that is not free, each with its outcome.
+    pub fn dependences<'a>(
+        &'a self,
+        parameters: &'a [FreeParameter],
+    ) -> impl Iterator<Item = (&'a FreeParameter, &'a Outcome, &'a Dependence)> {
+        let one = |(p, o): (&'a FreeParameter, &'a Outcome)| Some((p, o, o.depends_on.as_ref()?));
+        parameters.iter().zip(&self.outcomes).filter_map(one)
     }
 
     /// Parameters fitted in the end: all but those reset to their start.
@@ -217,7 +227,7 @@ fn update_decided(job: &UpdateJob) -> Result<Update, UpdateFailure> {
     if goodness.is_rejected() {
         classes.iter_mut().filter(|c| c.is_fitted()).for_each(|c| *c = IdentifiabilityClass::PoorFit);
     } else if classes.iter().any(|class| class.is_fitted()) {
-        depends_on = dependences(job, &at, &fitted_modes, &estimate.errors, &goodness)?;
+        depends_on = dependences(job, &at, &state, &fitted_modes, &estimate.errors, &goodness)?;
         for (class, found) in classes.iter_mut().zip(&mut depends_on) {
             match found {
                 Some(_) if class.is_fitted() => *class = IdentifiabilityClass::DependsOnFixed,

@@ -17,6 +17,7 @@ use super::job::{UpdateJob, settings};
 use super::least_squares::{Evaluation, Prior};
 use super::parameter::FreeParameter;
 use super::residual::evaluate_residuals;
+use super::state::ModelState;
 
 /// Largest number of candidates that are tried.
 pub const MAX_CANDIDATES: usize = 200;
@@ -47,23 +48,24 @@ impl Point {
         (0..self.x.len()).map(one).sum()
     }
 
-    /// Score tests of the first [`MAX_CANDIDATES`] candidates; those that change no datum, or the mesh, are left out.
+    /// Score tests of the first [`MAX_CANDIDATES`] candidates, `state` the model at x; those that change no datum, or the
+    /// mesh, are left out.
     pub fn scores(
         &self,
         job: &UpdateJob,
+        state: &ModelState,
         modes: &[usize],
         candidates: &[FreeParameter],
     ) -> Result<Scores, UpdateFailure> {
         let candidates = &candidates[..candidates.len().min(MAX_CANDIDATES)];
-        let state = job.state(&self.x)?;
         let all = settings(&self.parameters, &self.x);
         let movable = self.movable();
         let own = movable
             .par_iter()
-            .map(|&j| job.derivative(&all, &self.parameters[j], self.x[j], &state))
+            .map(|&j| job.derivative(&all, &self.parameters[j], self.x[j], state))
             .collect::<Result<Vec<_>, _>>()?;
         let others: Vec<_> =
-            candidates.par_iter().map(|c| job.derivative(&all, c, c.mean, &state).ok()).collect();
+            candidates.par_iter().map(|c| job.derivative(&all, c, c.mean, state).ok()).collect();
         let mut by = own;
         let mut places = Vec::new();
         for (k, derivative) in others.into_iter().enumerate() {
@@ -72,7 +74,7 @@ impl Point {
                 places.push(k);
             }
         }
-        let at = evaluate_residuals(&state, job.target, job.fitting, modes, &by)?;
+        let at = evaluate_residuals(state, job.target, job.fitting, modes, &by)?;
         Ok(Scores::new(&at, self, &movable, candidates, &places))
     }
 }
