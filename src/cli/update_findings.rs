@@ -100,6 +100,7 @@ fn per_cent(probability: f64) -> String {
 pub fn print(terminal: &Terminal, parameters: &[FreeParameter], found: &Update, findings: &Findings) {
     group_table(terminal, parameters, findings);
     dependence_table(terminal, parameters, found);
+    inseparable_table(terminal, parameters, found);
     if let Some(search) = &findings.culprits {
         culprit_table(terminal, found, search);
     }
@@ -160,6 +161,33 @@ fn dependence_table(terminal: &Terminal, parameters: &[FreeParameter], found: &U
         "in standard errors",
     ];
     terminal.table("Values that would change if one parameter more were free (predicted)", &header, &rows);
+}
+
+fn inseparable_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Update) {
+    let rows: Vec<Vec<String>> = found
+        .inseparable(parameters)
+        .map(|(parameter, outcome, fixed)| {
+            let error = |of: f64| number(change_per_cent(parameter, outcome.x, of).abs(), 2);
+            vec![
+                parameter.name.clone(),
+                fixed.from.name.clone(),
+                error(outcome.error),
+                error(fixed.error),
+                format!("{:+.2}", change_per_cent(parameter, outcome.x, fixed.change_for_one_per_cent())),
+            ]
+        })
+        .collect();
+    if rows.is_empty() {
+        return;
+    }
+    let header = [
+        "value",
+        "fixed value",
+        "standard error %",
+        "if it were free %",
+        "change % for 1 % of the fixed value",
+    ];
+    terminal.table("Values that the data do not separate from one that is not free", &header, &rows);
 }
 
 fn culprit_table(terminal: &Terminal, found: &Update, search: &CulpritSearch) {

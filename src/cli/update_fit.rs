@@ -278,10 +278,16 @@ fn parameter_table(terminal: &Terminal, parameters: &[FreeParameter], found: &Up
         "  prior variance left = posterior variance / prior variance. Identifiable: at most 10 % left and a standard\n  \
          error of at most 10 %; poorly identifiable: at most 50 % left; otherwise not identifiable, start value kept",
     );
-    if found.outcomes.iter().any(|outcome| outcome.depends_on.is_some()) {
+    if found.outcomes.iter().any(|outcome| outcome.fixed.depends_on.is_some()) {
         terminal.print(
             "  depends on a fixed value: the data would change a parameter that is not free, and this value with it by more\n  \
              than one standard error",
+        );
+    }
+    if found.outcomes.iter().any(|outcome| outcome.class == IdentifiabilityClass::InseparableFromFixed) {
+        terminal.print(
+            "  inseparable from a fixed value: identifiable only if a parameter that is not free is exact; if it were free too,\n  \
+             the standard error would be many times that large",
         );
     }
     if found.goodness.is_rejected() {

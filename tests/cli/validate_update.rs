@@ -224,6 +224,40 @@ fn values_that_depend_on_a_fixed_mass_are_not_identifiable() {
     assert!(!document["warnings"].to_string().contains("is not free"), "{document}");
 }
 
+/// The modes below 200 Hz determine the diameter of the shaft for a known Young's modulus only: the error with the modulus
+/// free too, and the change of the diameter by the modulus, are those of two more fits.
+#[test]
+fn value_that_a_fixed_one_could_replace_is_not_identifiable() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("truth");
+    let mut modal = rotordyn();
+    modal.args(["modal", RIG, "--speed", "0 rpm", "--no-figures", "--out"]).arg(&out).assert().success();
+    let update = |young: &str, more: &str| {
+        let mut command = rotordyn();
+        let free = format!("shaft.section.0.outer_diameter,disc.pulley.mass{more}");
+        command
+            .args(["update", RIG, "--no-figures", "--band", "5 .. 200 Hz", "--free", &free])
+            .args(["--set", &format!("material.steel.young={young}"), "--measured"])
+            .arg(out.join("results.h5"));
+        json_of(command.arg("--out").arg(folder.path()))
+    };
+    let number = |row: &serde_json::Value, key: &str| row[key].as_f64().unwrap();
+    let document = update("207 GPa", "");
+    let [diameter, mass] = [0, 1].map(|k| &document["parameters"][k]);
+    assert_eq!(diameter["identifiability"], "inseparable from a fixed value", "{diameter}");
+    assert_eq!(mass["identifiability"], "identifiable", "{mass}");
+    let rows = document["inseparable_from_fixed"].as_array().unwrap();
+    assert!(rows.len() == 1 && rows[0]["fixed"] == "material.steel.young", "{rows:?}");
+    assert!(document["warnings"].as_array().unwrap().is_empty(), "{}", document["warnings"]);
+    let free = update("207 GPa", ",material.steel.young");
+    let error = number(&free["parameters"][0], "standard_error");
+    assert!((number(&rows[0], "standard_error_if_free") / error - 1.0).abs() < 0.01, "{error} {rows:?}");
+    assert!(error > 10.0 * number(diameter, "standard_error"), "{error} {diameter}");
+    let stiffer = number(&update("209.07 GPa", "")["parameters"][0], "value");
+    let change = stiffer - number(diameter, "value");
+    assert!((number(&rows[0], "change_for_one_per_cent") / change - 1.0).abs() < 0.03, "{change} {rows:?}");
+}
+
 /// A plausible fit has no culprits; its profiles have intervals about the true value, and figures.
 #[test]
 fn profiles_of_a_plausible_fit() {

@@ -1,19 +1,30 @@
 //! Dependence of fitted values on parameters that are not free.
 //!
-//! χ² of the whole fit sees a single wrong parameter badly: of 13 degrees of freedom 17 are plausible although 15 of them
-//! vanish when one parameter more is free, and the fitted values may move by many standard errors then. So every parameter
-//! that is not free is tried by its score test (`score_test.rs`), whose gain has one degree of freedom.
+//! The standard errors of a fit take all that is not free as exact. Two things are therefore tried of every parameter that is
+//! not free, by its score test (`score_test.rs`):
+//!
+//! - whether the data would change it, and a fitted value with it. χ² of the whole fit sees a single wrong parameter badly: of
+//!   13 degrees of freedom 17 are plausible although 15 of them vanish when one parameter more is free. The gain of the score
+//!   test has one degree of freedom.
+//! - whether the data can tell it from a fitted value at all. If they cannot, a wrong fixed value leaves no misfit: of Young's
+//!   modulus and the diameter of a shaft, one free and the other 2 % off, the free one absorbs all of it.
 
 use super::UpdateFailure;
 use super::chi_squared::upper_probability;
 use super::goodness::{FitQuality, GoodnessOfFit};
 use super::job::UpdateJob;
 use super::parameter::FreeParameter;
-use super::score_test::{MIN_GAIN, Point, Scores};
+use super::score_test::{MIN_GAIN, Point, Score, Scores};
 use super::state::ModelState;
 
 /// Change of a value in its standard errors, above which it depends on a parameter that is not free.
 const MIN_SHIFT: f64 = 1.0;
+/// Growth of the standard error of a value with a fixed parameter free, above which the data do not separate the two: a
+/// correlation of 0.995.
+const MIN_GROWTH: f64 = 10.0;
+/// The same for a second value, once the data do not separate one from that fixed parameter: they cannot show that it is
+/// wrong then.
+const MIN_GROWTH_WITH_ANOTHER: f64 = 3.0;
 
 /// A parameter that is not free, which the data would change, and a fitted value with it.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,35 +41,84 @@ pub struct Dependence {
     pub shift: f64,
 }
 
-/// What each free parameter at a solution depends on most, of the parameters that are not free.
+/// A parameter that is not free, from which the data do not separate a fitted value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inseparable {
+    /// The parameter that is not free.
+    pub from: FreeParameter,
+    /// Standard error of the fitted coordinate if it were free.
+    pub error: f64,
+    /// Change of the fitted coordinate for a unit change of that of the fixed parameter.
+    pub slope: f64,
+}
+
+impl Inseparable {
+    /// Change of the fitted coordinate for 1 % of the fixed value.
+    pub fn change_for_one_per_cent(&self) -> f64 {
+        let fixed = &self.from;
+        self.slope * (fixed.coordinate(1.01 * fixed.value(fixed.mean)) - fixed.mean)
+    }
+}
+
+/// What a fitted value owes to parameters that are not free.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FixedInfluence {
+    /// The parameter that it depends on most.
+    pub depends_on: Option<Dependence>,
+    /// The parameter from which it is separated worst.
+    pub inseparable_from: Option<Inseparable>,
+}
+
+/// What each free parameter at a solution owes to the parameters that are not free.
 ///
-/// A value depends on a parameter whose release would lower χ² by at least 6.635 (probability 1 % by chance) and move the
-/// value by more than one standard error, `errors`; `state`: the model at the solution. Where the stated deviations of the data are too large, their scale is
+/// A value of standard error s depends on a parameter whose release would lower χ² by at least 6.635 (probability 1 % by
+/// chance) and move the value by more than s. It is inseparable from one of standard error σ, which it follows by f for a
+/// unit change, if √(s² + (σ f)²) > 10 s, or > 3 s if another value is inseparable from that one.
+///
+/// `errors`: s; `state`: the model at the solution. Where the stated deviations of the data are too large, their scale is
 /// taken from the misfit: the likelihood ratio is then ν ln(χ²/(χ² − gain)).
 ///
 /// # Errors
 /// The model cannot be evaluated at the solution.
-pub(crate) fn dependences(
+pub(crate) fn fixed_influences(
     job: &UpdateJob,
     at: &Point,
     state: &ModelState,
     modes: &[usize],
     errors: &[f64],
     goodness: &GoodnessOfFit,
-) -> Result<Vec<Option<Dependence>>, UpdateFailure> {
+) -> Result<Vec<FixedInfluence>, UpdateFailure> {
     if job.fixed.is_empty() {
-        return Ok(vec![None; errors.len()]);
+        return Ok(vec![FixedInfluence::default(); errors.len()]);
     }
     let scores = at.scores(job, state, modes, job.fixed)?;
-    Ok(strongest(&scores, job.fixed, errors, goodness))
+    let growth = |score: &Score, j: usize| 1.0f64.hypot(score.error * score.following[j] / errors[j]);
+    let absorbed = |score: &Score| (0..errors.len()).any(|j| growth(score, j) > MIN_GROWTH);
+    let absorbed: Vec<&Score> = scores.all.iter().filter(|score| absorbed(score)).collect();
+    let of_value = |(j, &error): (usize, &f64)| FixedInfluence {
+        depends_on: strongest(&scores, job.fixed, j, error, goodness),
+        inseparable_from: absorbed
+            .iter()
+            .map(|score| (growth(score, j), score))
+            .filter(|(growth, _)| *growth > MIN_GROWTH_WITH_ANOTHER)
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(growth, score)| Inseparable {
+                from: job.fixed[score.candidate].clone(),
+                error: growth * error,
+                slope: score.following[j],
+            }),
+    };
+    Ok(errors.iter().enumerate().map(of_value).collect())
 }
 
+/// The parameter of the largest gain among those that value j depends on.
 fn strongest(
     scores: &Scores,
     fixed: &[FreeParameter],
-    errors: &[f64],
+    j: usize,
+    error: f64,
     goodness: &GoodnessOfFit,
-) -> Vec<Option<Dependence>> {
+) -> Option<Dependence> {
     let ratio = |gain: f64| match goodness.quality() {
         FitQuality::DeviationsTooLarge => {
             let left = (1.0 - gain / goodness.chi_squared).max(f64::EPSILON);
@@ -66,19 +126,14 @@ fn strongest(
         }
         _ => gain,
     };
-    let of_value = |(j, error): (usize, &f64)| {
-        let strong = scores
-            .all
-            .iter()
-            .filter(|score| ratio(score.gain) >= MIN_GAIN && score.following[j].abs() > MIN_SHIFT * error);
-        let best = strong.max_by(|a, b| a.gain.total_cmp(&b.gain))?;
-        Some(Dependence {
-            on: fixed[best.candidate].clone(),
-            gain: best.gain,
-            probability: upper_probability(ratio(best.gain), 1.0),
-            change: best.change,
-            shift: best.following[j],
-        })
-    };
-    errors.iter().enumerate().map(of_value).collect()
+    let strong =
+        scores.all.iter().filter(|s| ratio(s.gain) >= MIN_GAIN && s.shift(j).abs() > MIN_SHIFT * error);
+    let best = strong.max_by(|a, b| a.gain.total_cmp(&b.gain))?;
+    Some(Dependence {
+        on: fixed[best.candidate].clone(),
+        gain: best.gain,
+        probability: upper_probability(ratio(best.gain), 1.0),
+        change: best.change,
+        shift: best.shift(j),
+    })
 }

@@ -3,7 +3,7 @@
 use super::correlation::Correlation;
 use super::culprits::{Culprit, CulpritSearch};
 use super::data_kind::KindFit;
-use super::dependence::Dependence;
+use super::dependence::{Dependence, Inseparable};
 use super::goodness::FitQuality;
 use super::groups::{Combination, Group};
 use super::parameter::FreeParameter;
@@ -32,6 +32,7 @@ impl Update {
     ) -> Document<'a> {
         let rows: Vec<_> = parameters.iter().zip(&self.outcomes).collect();
         let dependent: Vec<_> = self.dependences(parameters).collect();
+        let inseparable: Vec<_> = self.inseparable(parameters).collect();
         let (count, found) = (parameters.len(), &self.identifiability);
         let square = |rows: &[Vec<f64>]| Array::real(&[count, count], "1", rows.concat());
         let of_parameters = |name: &str| named(name, format!("parameters/{name}"));
@@ -39,6 +40,9 @@ impl Update {
             .table("parameters", parameter_rows(&rows))
             .and_if((!dependent.is_empty()).then_some(()), |document, ()| {
                 document.table("dependences", dependence_rows(&dependent))
+            })
+            .and_if((!inseparable.is_empty()).then_some(()), |document, ()| {
+                document.table("inseparable_from_fixed", inseparable_rows(&inseparable))
             })
             .numbers(of_parameters("standard_error_scale"), "1", found.scale.clone())
             .numbers(of_parameters("singular_values"), "1", found.singular_values.clone())
@@ -175,4 +179,20 @@ fn dependence_rows<'a, 'r>(
         .number("probability_by_chance", "1", |(_, _, d)| d.probability)
         .number("value_predicted", unit, |(p, o, d)| p.value(o.x + d.shift))
         .number("shift_in_standard_errors", "1", |(_, o, d)| d.shift / o.error)
+}
+
+/// Values that the data do not separate from a parameter that is not free.
+fn inseparable_rows<'a, 'r>(
+    rows: &'r [(&'r FreeParameter, &'r Outcome, &'r Inseparable)],
+) -> Rows<'a, 'r, (&'r FreeParameter, &'r Outcome, &'r Inseparable)> {
+    let unit = "in the parameter's unit";
+    Rows::of(rows)
+        .text("name", |(p, _, _)| &p.name)
+        .text("fixed", |(_, _, i)| &i.from.name)
+        .number("fixed_value", unit, |(_, _, i)| i.from.value(i.from.mean))
+        .number("standard_error_if_free", unit, |(p, o, i)| (i.error * p.derivative(o.fitted)).abs())
+        .number("growth_of_standard_error", "1", |(_, o, i)| i.error / o.error)
+        .number("change_for_one_per_cent", unit, |(p, o, i)| {
+            p.value(o.x + i.change_for_one_per_cent()) - p.value(o.x)
+        })
 }

@@ -46,7 +46,7 @@ mod score_test;
 pub mod state;
 pub mod target;
 
-use dependence::{Dependence, dependences};
+use dependence::{Dependence, FixedInfluence, Inseparable, fixed_influences};
 pub use document::Findings;
 pub use error::{UpdateError, UpdateFailure};
 use goodness::GoodnessOfFit;
@@ -71,6 +71,9 @@ pub enum IdentifiabilityClass {
     AtBound,
     /// The data would also change a parameter that is not free, and this value with it ([`dependence`]).
     DependsOnFixed,
+    /// The data do not separate the value from a parameter that is not free ([`dependence`]): its standard error holds only
+    /// if that one is exact.
+    InseparableFromFixed,
     /// The fitted model does not explain the data: the value stands for an error of the model elsewhere.
     PoorFit,
 }
@@ -84,6 +87,7 @@ impl IdentifiabilityClass {
             IdentifiabilityClass::NotIdentifiable => "not identifiable",
             IdentifiabilityClass::AtBound => "at bound",
             IdentifiabilityClass::DependsOnFixed => "depends on a fixed value",
+            IdentifiabilityClass::InseparableFromFixed => "inseparable from a fixed value",
             IdentifiabilityClass::PoorFit => "poor fit",
         }
     }
@@ -106,8 +110,8 @@ pub struct Outcome {
     pub error: f64,
     /// Ratio of posterior to prior variance.
     pub prior_share: f64,
-    /// The parameter that is not free and that the value depends on, if the model explains the data.
-    pub depends_on: Option<Dependence>,
+    /// What a fitted value owes to parameters that are not free, if the model explains the data.
+    pub fixed: FixedInfluence,
 }
 
 /// Result of a model update.
@@ -138,7 +142,16 @@ impl Update {
         &'a self,
         parameters: &'a [FreeParameter],
     ) -> impl Iterator<Item = (&'a FreeParameter, &'a Outcome, &'a Dependence)> {
-        let one = |(p, o): (&'a FreeParameter, &'a Outcome)| Some((p, o, o.depends_on.as_ref()?));
+        let one = |(p, o): (&'a FreeParameter, &'a Outcome)| Some((p, o, o.fixed.depends_on.as_ref()?));
+        parameters.iter().zip(&self.outcomes).filter_map(one)
+    }
+
+    /// Parameters whose value is inseparable from one that is not free, each with its outcome.
+    pub fn inseparable<'a>(
+        &'a self,
+        parameters: &'a [FreeParameter],
+    ) -> impl Iterator<Item = (&'a FreeParameter, &'a Outcome, &'a Inseparable)> {
+        let one = |(p, o): (&'a FreeParameter, &'a Outcome)| Some((p, o, o.fixed.inseparable_from.as_ref()?));
         parameters.iter().zip(&self.outcomes).filter_map(one)
     }
 
@@ -223,26 +236,29 @@ fn update_decided(job: &UpdateJob) -> Result<Update, UpdateFailure> {
     }
     let goodness = GoodnessOfFit::new(&evaluation, &prior, &kept);
     let at = Point { parameters: job.parameters.to_vec(), prior: constrained, x };
-    let mut depends_on = vec![None; classes.len()];
+    let mut fixed = vec![FixedInfluence::default(); classes.len()];
     if goodness.is_rejected() {
         classes.iter_mut().filter(|c| c.is_fitted()).for_each(|c| *c = IdentifiabilityClass::PoorFit);
     } else if classes.iter().any(|class| class.is_fitted()) {
-        depends_on = dependences(job, &at, &state, &fitted_modes, &estimate.errors, &goodness)?;
-        for (class, found) in classes.iter_mut().zip(&mut depends_on) {
-            match found {
-                Some(_) if class.is_fitted() => *class = IdentifiabilityClass::DependsOnFixed,
-                _ => *found = None,
+        fixed = fixed_influences(job, &at, &state, &fitted_modes, &estimate.errors, &goodness)?;
+        for (class, found) in classes.iter_mut().zip(&mut fixed) {
+            if !class.is_fitted() {
+                *found = FixedInfluence::default();
+            } else if found.depends_on.is_some() {
+                *class = IdentifiabilityClass::DependsOnFixed;
+            } else if found.inseparable_from.is_some() {
+                *class = IdentifiabilityClass::InseparableFromFixed;
             }
         }
     }
-    let outcomes = (depends_on.into_iter().enumerate())
-        .map(|(j, depends_on)| Outcome {
+    let outcomes = (fixed.into_iter().enumerate())
+        .map(|(j, fixed)| Outcome {
             class: classes[j],
             x: at.x[j],
             fitted: best.x[j],
             error: estimate.errors[j],
             prior_share: estimate.prior_share[j],
-            depends_on,
+            fixed,
         })
         .collect();
     Ok(Update {

@@ -88,8 +88,17 @@ pub(crate) struct Score {
     pub gain: f64,
     /// −u/i.
     pub change: f64,
-    /// Changes of all free parameters that follow it.
+    /// 1/√i, the standard error of the candidate if it were free.
+    pub error: f64,
+    /// −(JᵀJ + P)⁻¹ Jᵀg: change of every free parameter for a unit change of the candidate.
     pub following: Vec<f64>,
+}
+
+impl Score {
+    /// Change of free parameter j that follows the candidate.
+    pub fn shift(&self, j: usize) -> f64 {
+        self.change * self.following[j]
+    }
 }
 
 pub(crate) struct Scores {
@@ -134,9 +143,14 @@ impl Scores {
             let information = gram[(k, k)].max(0.0) + deviation.powi(-2);
             let slope = columns[k].dot(&at.residual) - followed[k].dot(&gradient);
             let mut following = vec![0.0; point.x.len()];
-            movable.iter().zip(&followed[k]).for_each(|(&j, v)| following[j] = slope / information * v);
-            let candidate = places[k];
-            Score { candidate, gain: slope * slope / information, change: -slope / information, following }
+            movable.iter().zip(&followed[k]).for_each(|(&j, v)| following[j] = -v);
+            Score {
+                candidate: places[k],
+                gain: slope * slope / information,
+                change: -slope / information,
+                error: information.sqrt().recip(),
+                following,
+            }
         };
         let size = |k: usize| gram[(k, k)].max(f64::MIN_POSITIVE).sqrt();
         Self {
@@ -223,7 +237,13 @@ mod tests {
             assert!((found.all[k].gain / gain - 1.0).abs() < 1e-12, "{k}: {} {gain}", found.all[k].gain);
             assert!((found.all[k].change - both[1]).abs() < 1e-12);
             // What the candidate adds to the move of the free parameter.
-            assert!((found.all[k].following[0] - (both[0] - alone)).abs() < 1e-12);
+            let score = &found.all[k];
+            assert!((score.shift(0) - (both[0] - alone)).abs() < 1e-12);
+            // Errors with the candidate free, by the inverse of both.
+            let covariance = matrix.try_inverse().unwrap();
+            assert!((score.error / covariance[(1, 1)].sqrt() - 1.0).abs() < 1e-12);
+            let with = (matrix[(0, 0)].recip() + (score.error * score.following[0]).powi(2)).sqrt();
+            assert!((with / covariance[(0, 0)].sqrt() - 1.0).abs() < 1e-12);
         }
     }
 
