@@ -60,7 +60,7 @@ impl Inseparable {
     }
 }
 
-/// What a fitted value owes to parameters that are not free.
+/// Influence of parameters that are not free on a fitted value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FixedInfluence {
     /// The parameter that it depends on most.
@@ -69,7 +69,7 @@ pub struct FixedInfluence {
     pub inseparable_from: Option<Inseparable>,
 }
 
-/// What each free parameter at a solution owes to the parameters that are not free.
+/// Influence of the parameters that are not free on each free parameter at a solution.
 ///
 /// A value of standard error s depends on a parameter whose release would lower χ² by at least 6.635 (probability 1 % by
 /// chance) and move the value by more than s. It is inseparable from one of standard error σ, which it follows by f for a

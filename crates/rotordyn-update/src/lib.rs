@@ -110,7 +110,7 @@ pub struct Outcome {
     pub error: f64,
     /// Ratio of posterior to prior variance.
     pub prior_share: f64,
-    /// What a fitted value owes to parameters that are not free, if the model explains the data.
+    /// Influence of parameters that are not free on a fitted value, if the model explains the data.
     pub fixed: FixedInfluence,
 }
 
