@@ -22,6 +22,12 @@ pub fn step_and_cages(terminal: &Terminal, found: &RunUpResult, seconds: f64) {
             number(found.history.sample_rate, 6)
         )),
     }
+    if let Some(step) = found.report.defect_step {
+        terminal.print(&format!(
+            "  {} us on local defects and until the vibration has decayed",
+            number(1e6 * step, 4)
+        ));
+    }
     if let Some((error, line)) = found.step_error.as_ref().and_then(|e| Some((e, e.worst()?))) {
         let [from, to] = error.stretch;
         terminal.print(&format!(

@@ -239,6 +239,7 @@ fn unstable_forward_whirl_due_to_internal_damping() {
     let study = RunUpStudy {
         integrator: Integrator::Newmark,
         step: 2e-5,
+        defect_step: f64::INFINITY,
         sample_rate: 1000.0,
         cutoff: 100.0,
         from_equilibrium: true,

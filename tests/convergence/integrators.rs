@@ -11,8 +11,10 @@ use rotordyn::element::Anchor;
 use rotordyn::model::study::{Integrator, RunUpStudy};
 use rotordyn::model::{Probe, Quantity, SpeedProfile, Unbalance};
 use rotordyn::study::Machine;
+use rotordyn::transient::energy::EnergyBalance;
 use rotordyn::transient::reduction::Reduction;
 use rotordyn::transient::run::{End, Settings, run};
+use rotordyn::transient::stepper::Stepper;
 
 const DURATION: f64 = 0.01;
 
@@ -43,6 +45,7 @@ fn end(reduction: &Reduction, integrator: Integrator, steps: usize) -> DVector<f
     let settings = Settings {
         integrator,
         step: DURATION / steps as f64,
+        defect_step: f64::INFINITY,
         sample_rate: 1.0 / DURATION,
         duration: DURATION,
     };
@@ -104,7 +107,8 @@ fn fitted_inertias_keep_the_exact_frequencies() {
     frequencies.iter().enumerate().for_each(|(k, w)| v[k] = 1e-6 * w);
     let largest_error = |integrator| {
         let mut worst = 0.0f64;
-        let settings = Settings { integrator, step, sample_rate: 1.0 / step, duration };
+        let settings =
+            Settings { integrator, step, defect_step: f64::INFINITY, sample_rate: 1.0 / step, duration };
         let start = system.initial_state(reduction.equilibrium.clone(), v.clone()).unwrap();
         let report = run(system, start, &settings, |sample| {
             for (k, w) in frequencies.iter().enumerate() {
@@ -120,6 +124,46 @@ fn fitted_inertias_keep_the_exact_frequencies() {
     let [fitted, plain] = [Integrator::FittedNewmark, Integrator::Newmark].map(largest_error);
     println!("{} modes, {steps} steps: error {fitted:.1e}, of Newmark {plain:.2}", frequencies.len());
     assert!(fitted < 1e-6 && plain > 0.5, "{fitted:.1e} {plain:.1e}");
+}
+
+/// The vibration goes on in phase and amplitude where the length of the steps changes: velocities and accelerations change with the
+/// fitted inertias, and the energy is kept.
+#[test]
+fn fitted_inertias_keep_vibrations_when_the_step_changes() {
+    let mut model = variant(Some("spherical"), &[("shaft.stiffness_damping", "0 s")]);
+    model.bushings.clear();
+    model.profile = SpeedProfile::Constant { speed: 0.0, duration: 1.0 };
+    model.unbalances.clear();
+    let machine = Machine::new(model).unwrap();
+    let reduction = machine.reduce(machine.model.studies.run_up.as_ref().unwrap()).unwrap();
+    let system = &reduction.system;
+    let frequencies: Vec<f64> = system.natural_frequencies.iter().copied().filter(|w| *w > 0.0).collect();
+    let highest = frequencies.iter().copied().fold(0.0, f64::max);
+    let long = 1.5 / highest;
+    let mut v = &reduction.equilibrium * 0.0;
+    let half = |w: f64| 0.5 * w * long;
+    frequencies.iter().enumerate().for_each(|(k, w)| v[k] = 1e-6 * w * half(*w).tan() / half(*w));
+    let mut state = system.initial_state(reduction.equilibrium.clone(), v).unwrap();
+    let mut stepper = Stepper::new(system, Integrator::FittedNewmark, long);
+    stepper.fit_inertias(system, &mut state, long);
+    let mut balance = EnergyBalance::new(system, &state);
+    let mut worst = 0.0f64;
+    for (steps, length) in [(40, long), (31, 0.25 * long), (17, long), (60, 0.1 * long), (80, long)] {
+        for _ in 0..steps {
+            stepper.exact_step(system, &mut state, length).unwrap();
+            balance.update(system, &state);
+            for (k, w) in frequencies.iter().enumerate() {
+                let exact = 1e-6 * (w * state.time).sin();
+                worst = worst.max((state.x[k] - reduction.equilibrium[k] - exact).abs());
+            }
+        }
+        balance.update_stored_energy(system, &state);
+        let vibration: f64 = frequencies.iter().map(|w| 0.5e-12 * w * w).sum();
+        let error = balance.energy.residual() / vibration;
+        println!("{steps} steps of {length:.2e} s: energy {error:.1e}, largest error {:.1e}", 1e6 * worst);
+        assert!(error.abs() < 1e-6, "{error}");
+    }
+    assert!(worst < 1e-6 * 1e-6, "{worst}");
 }
 
 /// Amplitudes of displacement and acceleration of a mass on a massless shaft with an unbalance, over m e Ω²/|k − m Ω² + j c Ω|
@@ -151,6 +195,7 @@ fn fitted_inertias_in_forced_vibration() {
             let study = RunUpStudy {
                 integrator: Integrator::FittedNewmark,
                 step,
+                defect_step: f64::INFINITY,
                 sample_rate: 1.0 / step,
                 cutoff: 100.0,
                 from_equilibrium: true,

@@ -35,6 +35,7 @@ fn end(reduction: &Reduction, integrator: Integrator, steps: usize) -> nalgebra:
     let settings = Settings {
         integrator,
         step: DURATION / steps as f64,
+        defect_step: f64::INFINITY,
         sample_rate: 1.0 / DURATION,
         duration: DURATION,
     };

@@ -158,6 +158,30 @@ fn the_default_step_follows_the_fastest_line() {
     assert_eq!(step(9000.0, "step = \"50 us\"\n"), (50.0 / 1e6, None));
 }
 
+/// The step on a defect divides its shortest passage at top speed by 40; runs at constant speed, whose steps are equal, take it.
+#[test]
+fn the_default_step_on_a_defect_follows_its_passage() {
+    let text = "[speed]\nprofile = \"constant\"\nspeed = \"3000 rpm\"\nduration = \"1 s\"\n[study.run_up]\n[study.poincare]\n\
+                [[bearing.A.defect]]\nkind = \"dent\"\non = \"inner\"\nangle = \"0 deg\"\nwidth = \"0.8 mm\"\n";
+    let defect_step = |set: &[(&str, &str)]| {
+        let loaded = load(text, set);
+        let written = loaded.defaults.iter().find(|default| default.path == "study.run_up.defect_step");
+        let written = written.map(|default| default.value.clone());
+        let studies = loaded.model.studies;
+        (studies.run_up.unwrap().defect_step, studies.poincare.unwrap().steady.step, written)
+    };
+    // A ball of a 6205 (D 7.94 mm, D_pw 38.5 mm) moves over the inner race, of a radius of 15.28 mm, by
+    // ½ (1 + 7.94/38.5) of the shaft's 314.2 rad/s: 0.8 mm in 276 us.
+    assert_eq!(defect_step(&[]), (6.9e-6, 6.9e-6, Some("\"6.9 us\"".into())));
+    let given = [("study.run_up.defect_step", "5 us"), ("study.poincare.step", "2 us")];
+    assert_eq!(defect_step(&given), (5e-6, 2e-6, None));
+    let perfect = load(
+        "[speed]\nprofile = \"constant\"\nspeed = \"3000 rpm\"\nduration = \"1 s\"\n[study.run_up]\n",
+        &[],
+    );
+    assert_eq!(perfect.model.studies.run_up.unwrap().defect_step, f64::INFINITY);
+}
+
 /// The bearing A of the file has a clearance class.
 #[test]
 fn a_key_of_a_variant_takes_the_place_of_one_that_excludes_it() {

@@ -72,8 +72,13 @@ fn small_hit_gives_the_linear_frf() {
     let rest: Vec<f64> =
         probes.iter().map(|&p| reduction.system.channels[p].row.dot(&reduction.equilibrium)).collect();
     let mut responses = [Vec::new(), Vec::new()];
-    let settings =
-        Settings { integrator: Integrator::Newmark, step: 2.5e-5, sample_rate: RATE, duration: DURATION };
+    let settings = Settings {
+        integrator: Integrator::Newmark,
+        step: 2.5e-5,
+        defect_step: f64::INFINITY,
+        sample_rate: RATE,
+        duration: DURATION,
+    };
     let state =
         reduction.system.initial_state(reduction.equilibrium.clone(), &reduction.equilibrium * 0.0).unwrap();
     let balls_before = start.bearings.iter().flat_map(|b| &b.balls).filter(|b| b.load > 0.0).count();

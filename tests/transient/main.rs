@@ -6,6 +6,7 @@ mod measured_data;
 mod rig;
 
 mod cage_phases;
+mod defect_steps;
 mod free_balls;
 mod high_speed;
 mod impact;

@@ -180,6 +180,19 @@ fn kinematic_cages_with_every_integrator_and_motion() {
     }
 }
 
+/// Steps are divided on the dent and until the vibration has decayed, with inertias fitted to their length.
+#[test]
+fn divided_steps_on_a_defect() {
+    let model = rig(Some("dented"), &[("study.run_up.defect_step", "10 us")]);
+    for integrator in [Integrator::FittedNewmark, GENERALISED_ALPHA] {
+        let study = study(&model, integrator, 5e-5);
+        let report = stopped_run_equals_whole_run(&format!("dented, {integrator:?}"), &model, &study);
+        assert_eq!(report.end, End::Complete);
+        // Two whole steps to a sample, or ten parts.
+        assert!(report.steps > 2 * report.samples as u64 + 500, "{report:?}");
+    }
+}
+
 /// Halved steps have inverses of their own and other guesses of the force; here until a step fails, as it does in the
 /// resumed run.
 #[test]

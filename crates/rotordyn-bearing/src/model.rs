@@ -193,6 +193,20 @@ pub trait BearingElement: Debug + Send + Sync {
         0
     }
 
+    /// Whether a rolling element in a cage that turns with the shaft can come on a local defect.
+    fn has_defects(&self) -> bool {
+        false
+    }
+
+    /// Whether one is on a local defect at some time of a rotation from one state to another.
+    fn meets_defect(&self, _from: &Rotation, _to: &Rotation) -> bool {
+        false
+    }
+
+    /// Calls `visit` with the part of such a rotation at every passage over the start or the end of a local defect, where the
+    /// slope of the surface jumps.
+    fn each_defect_edge(&self, _from: &Rotation, _to: &Rotation, _visit: &mut dyn FnMut(f64)) {}
+
     /// Cage speed over shaft speed at a mean contact angle; 0 for a bearing without cage.
     fn cage_ratio(&self, _mean_cos: f64) -> f64 {
         0.0

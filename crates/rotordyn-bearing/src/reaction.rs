@@ -15,6 +15,19 @@ pub struct Rotation {
     pub shaft_speed: f64,
 }
 
+impl Rotation {
+    /// The state at a part of the way to another one.
+    pub fn towards(&self, to: &Self, part: f64) -> Self {
+        let between = |a: f64, b: f64| a + part * (b - a);
+        Self {
+            cage_angle: between(self.cage_angle, to.cage_angle),
+            cage_speed: self.cage_speed.zip(to.cage_speed).map(|(a, b)| between(a, b)),
+            shaft_angle: between(self.shaft_angle, to.shaft_angle),
+            shaft_speed: between(self.shaft_speed, to.shaft_speed),
+        }
+    }
+}
+
 /// Bearing force on the shaft with stiffness and damping tangents, at one relative displacement and velocity.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Reaction {

@@ -1,6 +1,8 @@
 //! Allocation-free dense solver for small linear systems inside a time step.
 
 use super::dot;
+use pulp::Arch;
+use std::ops::Range;
 
 /// Solves A x = b in place by Gaussian elimination with partial pivoting; `b` becomes x.
 ///
@@ -50,7 +52,9 @@ pub const LANES: usize = 4;
 type Lanes = [f64; LANES];
 
 /// A small square matrix in row-major order, each row padded with zeros to whole vectors.
-#[derive(Clone, Debug, Default)]
+///
+/// Compiled for the widest vectors of the processor, with the same rounding on every one.
+#[derive(Clone, Debug)]
 pub struct PaddedMatrix {
     size: usize,
     vectors: usize,
@@ -59,6 +63,7 @@ pub struct PaddedMatrix {
     pivots: Vec<usize>,
     multipliers: Vec<f64>,
     inverses: Vec<f64>,
+    arch: Arch,
 }
 
 impl PaddedMatrix {
@@ -71,6 +76,7 @@ impl PaddedMatrix {
             pivots: vec![0; size],
             multipliers: vec![0.0; size * size],
             inverses: vec![0.0; size],
+            arch: Arch::new(),
         }
     }
 
@@ -84,23 +90,58 @@ impl PaddedMatrix {
         self.data[row * self.vectors..(row + 1) * self.vectors].as_flattened()
     }
 
-    /// Adds Σ_b factors_b source_{first+b} to a row, over the vectors that hold the columns `columns`, outside of which the rows
-    /// of `source` are zero.
-    #[inline]
-    pub fn add_rows(
-        &mut self,
-        row: usize,
-        factors: &[f64],
-        source: &Self,
-        first: usize,
-        columns: std::ops::Range<usize>,
-    ) {
-        let vectors = columns.start / LANES..columns.end.div_ceil(LANES);
-        let to = &mut self.data[row * self.vectors..][vectors.clone()];
-        for (factor, from) in factors.iter().zip(source.data.chunks_exact(source.vectors).skip(first)) {
-            for (to, from) in to.iter_mut().zip(&from[vectors.clone()]) {
-                for k in 0..LANES {
-                    to[k] += factor * from[k];
+    /// Sets the matrix to I + Y T with the row-major Y and a T of diagonal blocks, at the rows and columns `blocks`.
+    pub fn set_to_identity_plus_product(&mut self, y: &[f64], t: &Self, blocks: &[Range<usize>]) {
+        self.arch.dispatch(
+            #[inline(always)]
+            || match self.vectors {
+                1 => self.identity_plus_product::<1>(y, t, blocks),
+                2 => self.identity_plus_product::<2>(y, t, blocks),
+                3 => self.identity_plus_product::<3>(y, t, blocks),
+                4 => self.identity_plus_product::<4>(y, t, blocks),
+                _ => self.identity_plus_long_product(y, t, blocks),
+            },
+        );
+    }
+
+    /// With rows of V vectors, which stay in registers.
+    #[inline(always)]
+    fn identity_plus_product<const V: usize>(&mut self, y: &[f64], t: &Self, blocks: &[Range<usize>]) {
+        let (lines, _) = self.data.as_chunks_mut::<V>();
+        let (from, _) = t.data.as_chunks::<V>();
+        for (row, (line, y)) in lines.iter_mut().zip(y.chunks_exact(self.size)).enumerate() {
+            let mut sum = [[0.0; LANES]; V];
+            sum[row / LANES][row % LANES] = 1.0;
+            for block in blocks {
+                for (factor, from) in y[block.clone()].iter().zip(&from[block.clone()]) {
+                    for v in 0..V {
+                        for k in 0..LANES {
+                            sum[v][k] += factor * from[v][k];
+                        }
+                    }
+                }
+            }
+            *line = sum;
+        }
+    }
+
+    #[inline(always)]
+    fn identity_plus_long_product(&mut self, y: &[f64], t: &Self, blocks: &[Range<usize>]) {
+        let lines = self.data.chunks_exact_mut(self.vectors).zip(y.chunks_exact(self.size));
+        for (row, (line, y)) in lines.enumerate() {
+            line.fill([0.0; LANES]);
+            line[row / LANES][row % LANES] = 1.0;
+            for block in blocks {
+                // Whole vectors that hold the columns of the block: outside of them its rows are zero.
+                let vectors = block.start / LANES..block.end.div_ceil(LANES);
+                let to = &mut line[vectors.clone()];
+                let from = t.data.chunks_exact(t.vectors).skip(block.start);
+                for (factor, from) in y[block.clone()].iter().zip(from) {
+                    for (to, from) in to.iter_mut().zip(&from[vectors.clone()]) {
+                        for k in 0..LANES {
+                            to[k] += factor * from[k];
+                        }
+                    }
                 }
             }
         }
@@ -110,12 +151,33 @@ impl PaddedMatrix {
     ///
     /// Returns false for a zero or non-finite pivot.
     pub fn factor(&mut self) -> bool {
+        let vectors = self.vectors;
+        self.arch.dispatch(
+            #[inline(always)]
+            || match vectors {
+                1 => self.eliminate(subtract::<1>),
+                2 => self.eliminate(subtract::<2>),
+                3 => self.eliminate(subtract::<3>),
+                4 => self.eliminate(subtract::<4>),
+                _ => self.eliminate(subtract_long),
+            },
+        )
+    }
+
+    /// `subtract`: line − factor · pivot row, for whole rows.
+    #[inline(always)]
+    fn eliminate(&mut self, subtract: impl Fn(&mut [Lanes], &[Lanes], f64)) -> bool {
         let (n, vectors) = (self.size, self.vectors);
         let stride = vectors * LANES;
         for k in 0..n {
             let flat = self.data.as_flattened_mut();
-            let column = |row: usize| flat[row * stride + k].abs();
-            let pivot = (k + 1..n).fold(k, |best, row| if column(row) > column(best) { row } else { best });
+            let (mut pivot, mut largest) = (k, flat[k * stride + k].abs());
+            for row in k + 1..n {
+                let size = flat[row * stride + k].abs();
+                if size > largest {
+                    (pivot, largest) = (row, size);
+                }
+            }
             let value = flat[pivot * stride + k];
             if value == 0.0 || !value.is_finite() {
                 return false;
@@ -129,20 +191,16 @@ impl PaddedMatrix {
                     self.multipliers.swap(k * n + column, pivot * n + column);
                 }
             }
-            // Whole vectors from that of the pivot on: what they change left of the diagonal is not read again.
-            let first = k / LANES;
-            let (top, below) = self.data.split_at_mut((k + 1) * vectors);
-            let pivot_row = &top[k * vectors + first..];
             let inverse = 1.0 / value;
             self.inverses[k] = inverse;
-            for (row, line) in (k + 1..).zip(below.chunks_exact_mut(vectors)) {
+            // What whole rows change left of the diagonal is not read again.
+            let (top, below) = self.data.split_at_mut((k + 1) * vectors);
+            let pivot_row = &top[k * vectors..];
+            let multipliers = self.multipliers[(k + 1) * n..].chunks_exact_mut(n);
+            for (line, multipliers) in below.chunks_exact_mut(vectors).zip(multipliers) {
                 let factor = line.as_flattened()[k] * inverse;
-                self.multipliers[row * n + k] = factor;
-                for (to, from) in line[first..].iter_mut().zip(pivot_row) {
-                    for lane in 0..LANES {
-                        to[lane] -= factor * from[lane];
-                    }
-                }
+                multipliers[k] = factor;
+                subtract(line, pivot_row, factor);
             }
         }
         true
@@ -165,13 +223,35 @@ impl PaddedMatrix {
     }
 }
 
+/// line − factor · row, of V vectors.
+#[inline(always)]
+fn subtract<const V: usize>(line: &mut [Lanes], row: &[Lanes], factor: f64) {
+    if let (Some(line), Some(row)) = (line.first_chunk_mut::<V>(), row.first_chunk::<V>()) {
+        for v in 0..V {
+            for k in 0..LANES {
+                line[v][k] -= factor * row[v][k];
+            }
+        }
+    }
+}
+
+/// The same, of any number of vectors.
+#[inline(always)]
+fn subtract_long(line: &mut [Lanes], row: &[Lanes], factor: f64) {
+    for (to, from) in line.iter_mut().zip(row) {
+        for k in 0..LANES {
+            to[k] -= factor * from[k];
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn padded_matrices_of_any_size_give_the_same() {
-        for n in 1..14 {
+        for n in 1..22 {
             let entry =
                 |i: usize, j: usize| (3.7 * i as f64 + 1.3 * (j * j) as f64 + (i * j) as f64 + 0.5).sin();
             let plain: Vec<f64> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
@@ -189,22 +269,25 @@ mod tests {
     }
 
     #[test]
-    fn adds_rows_of_a_block() {
-        let mut block = PaddedMatrix::new(7);
-        for i in 3..6 {
-            for j in 3..6 {
-                block.row_mut(i)[j] = (10 * i + j) as f64;
+    fn identity_plus_product_of_blocks() {
+        let (mut t, blocks) = (PaddedMatrix::new(7), [0..3, 3..7]);
+        for block in &blocks {
+            for i in block.clone() {
+                for j in block.clone() {
+                    t.row_mut(i)[j] = (10 * i + j) as f64;
+                }
             }
         }
+        let y: Vec<f64> = (0..49).map(|k| (k % 5) as f64 - 2.0).collect();
         let mut sum = PaddedMatrix::new(7);
-        sum.add_rows(1, &[2.0, -1.0, 0.5], &block, 3, 3..6);
-        for j in 0..7 {
-            let inside = (3..6).contains(&j);
-            let exact =
-                if inside { 2.0 * (30 + j) as f64 - (40 + j) as f64 + 0.5 * (50 + j) as f64 } else { 0.0 };
-            assert_eq!(sum.row_mut(1)[j], exact);
+        sum.set_to_identity_plus_product(&y, &t, &blocks);
+        for i in 0..7 {
+            for j in 0..7 {
+                let product: f64 = (0..7).map(|k| y[7 * i + k] * t.row(k)[j]).sum();
+                assert_eq!(sum.row(i)[j], product + if i == j { 1.0 } else { 0.0 });
+            }
+            assert_eq!(sum.row(i)[7], 0.0);
         }
-        assert_eq!(sum.row_mut(0), [0.0; 8]);
     }
 
     #[test]

@@ -33,6 +33,8 @@ pub struct Decimator {
     /// Frames so far, and index of the next output.
     frames: usize,
     next: usize,
+    /// Number of the last frames that are zero.
+    zeros: usize,
 }
 
 impl Decimator {
@@ -49,7 +51,16 @@ impl Decimator {
         let mut weights: Vec<f64> = (0..=2 * half).map(weight).collect();
         let sum: f64 = weights.iter().sum();
         weights.iter_mut().for_each(|w| *w /= sum);
-        Self { factor, half, weights, values: vec![Vec::new(); channels], first: 0, frames: 0, next: 0 }
+        Self {
+            factor,
+            half,
+            weights,
+            values: vec![Vec::new(); channels],
+            first: 0,
+            frames: 0,
+            next: 0,
+            zeros: 0,
+        }
     }
 
     /// Takes the next frame, one value per channel.
@@ -58,19 +69,38 @@ impl Decimator {
             values.push(*value);
         }
         self.frames += 1;
+        self.zeros = 0;
+    }
+
+    /// Takes some frames of zeros; outputs of zeros alone cost nothing.
+    pub fn push_zeros(&mut self, count: usize) {
+        for values in &mut self.values {
+            values.resize(values.len() + count, 0.0);
+        }
+        self.frames += count;
+        self.zeros += count;
+    }
+
+    /// Whether the frames that the next output needs are there; `at_end`: no more frames come.
+    pub fn has_next(&self, at_end: bool) -> bool {
+        let centre = self.next * self.factor;
+        let last_needed = if at_end { centre } else { centre + self.half };
+        last_needed < self.frames
     }
 
     /// Appends the next output to `out`, if the frames it needs are there; whether it was. `at_end`: no more frames come.
     pub fn pop(&mut self, at_end: bool, out: &mut Vec<f64>) -> bool {
-        let centre = self.next * self.factor;
-        let last_needed = if at_end { centre } else { centre + self.half };
-        if last_needed >= self.frames {
+        if !self.has_next(at_end) {
             return false;
         }
-        let Self { half, weights, values, first, frames, .. } = &*self;
+        let centre = self.next * self.factor;
+        let Self { half, weights, values, first, frames, zeros, .. } = &*self;
         let inside = centre >= *half && centre + half < *frames;
+        let is_zero = inside && centre - half >= frames - zeros;
         for values in values {
-            out.push(if inside {
+            out.push(if is_zero {
+                0.0
+            } else if inside {
                 let begin = centre - half - first;
                 dot_in_sixteens(weights, &values[begin..begin + weights.len()])
             } else {
@@ -153,6 +183,25 @@ mod tests {
         assert!((out[0] - noise[0]).abs() < 1e-13 && (out[50] - noise[200]).abs() < 1e-13);
         assert_eq!(decimated(&noise, 1), noise);
         assert!((decimated(&[5.0], 3)[0] - 5.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn zeros_at_once_are_zeros_one_by_one() {
+        let burst = |k: usize| if k % 700 < 40 { (k as f64 * 0.9).sin() } else { 0.0 };
+        let record: Vec<f64> = (0..3001).map(burst).collect();
+        let exact = decimated(&record, 6);
+        let (mut filter, mut out) = (Decimator::new(1, 6), Vec::new());
+        for block in record.chunks(10) {
+            if block.iter().all(|value| *value == 0.0) {
+                filter.push_zeros(block.len());
+            } else {
+                block.iter().for_each(|value| filter.push(&[*value]));
+            }
+            while filter.pop(false, &mut out) {}
+        }
+        while filter.pop(true, &mut out) {}
+        assert_eq!(out, exact);
+        assert!(out.iter().any(|value| *value != 0.0));
     }
 
     #[test]

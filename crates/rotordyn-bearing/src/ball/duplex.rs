@@ -35,6 +35,9 @@ pub(super) fn displacement_at_offset(place: f64, d: &[f64; 6]) -> [f64; 6] {
 /// Reaction of a row at h transformed to the station: Tᵀ f, Tᵀ K T, Tᵀ C T with T of [`displacement_at_offset`].
 pub(super) fn transform_to_station(place: f64, row: &Reaction) -> Reaction {
     let mut out = *row;
+    if place == 0.0 {
+        return out;
+    }
     out.force[4] += place * row.force[0];
     out.force[3] -= place * row.force[1];
     for matrix in [&mut out.stiffness, &mut out.damping] {

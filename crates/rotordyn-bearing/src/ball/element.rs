@@ -10,7 +10,7 @@ pub use super::load::BallLoad;
 use super::ring_motion::RingMotion;
 use super::row::Row;
 use crate::contact::HertzPair;
-use crate::{BallBearing, PreloadState, Reaction, Rotation};
+use crate::{BallBearing, PreloadState, Profile, Reaction, Rotation};
 
 /// A ball bearing prepared for evaluation: one row, or the two of a matched pair.
 #[derive(Clone, Debug)]
@@ -127,6 +127,11 @@ impl BallElement {
         out.parametric_power = sum.power;
         out.dissipated_power = sum.dissipated;
         out.mean_cos = if sum.load > 0.0 { sum.load_cos / sum.load } else { self.cage.nominal_cos };
+    }
+
+    /// Surface profiles of the rows that are not perfect.
+    pub(super) fn profiles(&self) -> impl Iterator<Item = &Profile> {
+        self.rows.iter().filter_map(|(_, row)| row.profile.as_deref())
     }
 
     pub(super) fn rows(&self) -> &[(f64, Row)] {

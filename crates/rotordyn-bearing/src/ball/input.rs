@@ -3,7 +3,9 @@
 use super::lubrication::{Lubrication, SLIDING_FRICTION};
 use crate::contact::{ContactDamping, ContactLaw, ContactStiffness, HertzPair, Lubricant};
 use crate::material::Material;
-use crate::{BallGeometry, BallInertia, CharacteristicOrders, DefectLaw, Fit, FitMaterials, Imperfections};
+use crate::{
+    BallGeometry, BallInertia, CharacteristicOrders, DefectLaw, Fit, FitMaterials, Imperfections, Surface,
+};
 use serde::{Deserialize, Serialize};
 
 /// Ball bearing with one force element per ball and a kinematic cage.
@@ -83,6 +85,22 @@ impl BallBearing {
         let Imperfections { ball_waviness, off_size, defects, .. } = &self.imperfections;
         let on_ball = |d: &crate::Defect| matches!(d.surface, crate::Surface::Ball(_));
         ball_waviness.is_empty() && off_size.is_empty() && !defects.iter().any(on_ball)
+    }
+
+    /// Angle by which the shaft turns while a ball passes over the local defect that it passes over fastest \[rad\]; `None`
+    /// without defects.
+    pub fn shortest_defect_pass(&self) -> Option<f64> {
+        let g = &self.geometry;
+        let orders = g.characteristic_orders(g.contact_angle);
+        let passes = self.imperfections.defects.iter().map(|defect| {
+            let order = match defect.surface {
+                Surface::Outer => orders.bpfo / g.balls as f64,
+                Surface::Inner => orders.bpfi / g.balls as f64,
+                Surface::Ball(_) => orders.bsf,
+            };
+            defect.angle(g) / order
+        });
+        passes.filter(|angle| *angle > 0.0).min_by(f64::total_cmp)
     }
 
     /// Lubricant of the contact law, else of the service conditions.

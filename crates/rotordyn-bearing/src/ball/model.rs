@@ -7,7 +7,7 @@ use super::element::BallElement;
 use super::input::{Arrangement, BallBearing, Duplex, Preload};
 use super::preload::PreloadState;
 use crate::model::{BearingElement, BearingModel, BearingSymbol, CageStart};
-use crate::{BearingContact, Reaction, Rotation};
+use crate::{BearingContact, Profile, Reaction, Rotation};
 
 impl BearingModel for BallBearing {
     fn keyword(&self) -> &'static str {
@@ -102,6 +102,18 @@ impl BearingElement for BallElement {
 
     fn rolling_elements(&self) -> usize {
         self.balls()
+    }
+
+    fn has_defects(&self) -> bool {
+        self.profiles().any(Profile::has_defects)
+    }
+
+    fn meets_defect(&self, from: &Rotation, to: &Rotation) -> bool {
+        self.profiles().any(|profile| profile.meets_defect(from, to))
+    }
+
+    fn each_defect_edge(&self, from: &Rotation, to: &Rotation, visit: &mut dyn FnMut(f64)) {
+        self.profiles().for_each(|profile| profile.each_edge(from, to, &mut *visit));
     }
 
     fn cage_ratio(&self, mean_cos: f64) -> f64 {

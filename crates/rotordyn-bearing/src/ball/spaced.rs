@@ -51,6 +51,20 @@ impl SpacedBalls {
         let width = self.shaft[k] - self.shaft[k - 1];
         (k, ((shaft_angle - self.shaft[k - 1]) / width).clamp(0.0, 1.0))
     }
+
+    /// Of every ball as of a cage of its own.
+    fn rotations(&self, rotation: &Rotation) -> impl Iterator<Item = Rotation> {
+        let (k, part) = self.place(rotation.shaft_angle);
+        let per_shaft = 1.0 / (self.shaft[k] - self.shaft[k - 1]);
+        self.angles[k - 1].iter().zip(&self.angles[k]).map(move |(before, after)| {
+            let turned = after - before;
+            Rotation {
+                cage_angle: before + part * turned,
+                cage_speed: rotation.cage_speed.map(|_| per_shaft * turned * rotation.shaft_speed),
+                ..*rotation
+            }
+        })
+    }
 }
 
 impl BearingElement for SpacedBalls {
@@ -60,17 +74,9 @@ impl BearingElement for SpacedBalls {
 
     /// Sum over the balls; ψ_j linear between the given angles.
     fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction {
-        let (k, part) = self.place(rotation.shaft_angle);
-        let per_shaft = 1.0 / (self.shaft[k] - self.shaft[k - 1]);
         let mut sum = Reaction::default();
         let (mut cosines, mut loads) = (0.0, 0.0);
-        for ((ball, before), after) in self.balls.iter().zip(&self.angles[k - 1]).zip(&self.angles[k]) {
-            let turned = after - before;
-            let own = Rotation {
-                cage_angle: before + part * turned,
-                cage_speed: rotation.cage_speed.map(|_| per_shaft * turned * rotation.shaft_speed),
-                ..*rotation
-            };
+        for (ball, own) in self.balls.iter().zip(self.rotations(rotation)) {
             let force = ball.reaction(d, v, &own);
             let load = force.force[..3].iter().map(|f| f * f).sum::<f64>().sqrt();
             cosines += load * force.mean_cos;
@@ -95,6 +101,22 @@ impl BearingElement for SpacedBalls {
 
     fn rolling_elements(&self) -> usize {
         self.balls.len()
+    }
+
+    fn has_defects(&self) -> bool {
+        self.row.has_defects()
+    }
+
+    fn meets_defect(&self, from: &Rotation, to: &Rotation) -> bool {
+        let moved = self.rotations(from).zip(self.rotations(to));
+        self.balls.iter().zip(moved).any(|(ball, (from, to))| ball.meets_defect(&from, &to))
+    }
+
+    fn each_defect_edge(&self, from: &Rotation, to: &Rotation, visit: &mut dyn FnMut(f64)) {
+        let moved = self.rotations(from).zip(self.rotations(to));
+        for (ball, (from, to)) in self.balls.iter().zip(moved) {
+            ball.each_defect_edge(&from, &to, &mut *visit);
+        }
     }
 
     fn cage_ratio(&self, mean_cos: f64) -> f64 {

@@ -187,6 +187,43 @@ impl Profile {
         }
     }
 
+    /// Whether there are local defects.
+    pub fn has_defects(&self) -> bool {
+        let on_balls = self.balls.iter().flat_map(|ball| &ball.surface);
+        [&self.inner, &self.outer].into_iter().chain(on_balls).any(Raceway::has_defects)
+    }
+
+    /// Whether a contact of a ball is on a local defect at some time of a rotation from one state to another.
+    pub fn meets_defect(&self, from: &Rotation, to: &Rotation) -> bool {
+        self.passing(from, to).any(|(surface, angles, spacing)| surface.meets_defect(angles, spacing))
+    }
+
+    /// Calls `visit` with the part of the rotation at every passage of a contact over the start or the end of a local defect.
+    pub fn each_edge(&self, from: &Rotation, to: &Rotation, mut visit: impl FnMut(f64)) {
+        for (surface, angles, spacing) in self.passing(from, to) {
+            surface.each_edge(angles, spacing, &mut visit);
+        }
+    }
+
+    /// Every surface with the angles of its first contact at two states, and the spacing of its contacts.
+    fn passing(&self, from: &Rotation, to: &Rotation) -> impl Iterator<Item = (&Raceway, [f64; 2], f64)> {
+        let spacing = TAU / self.ball_positions.len() as f64;
+        let inner = [from, to].map(|at| at.cage_angle - at.shaft_angle);
+        let turned = [from, to].map(|at| self.ball_angle(at));
+        let on_balls = self.balls.iter().flat_map(move |ball| {
+            [(&ball.surface[0], turned.map(|angle| angle + PI), TAU), (&ball.surface[1], turned, TAU)]
+        });
+        let races =
+            [(&self.inner, inner, spacing), (&self.outer, [from, to].map(|at| at.cage_angle), spacing)];
+        races.into_iter().chain(on_balls).filter(|(surface, ..)| surface.has_defects())
+    }
+
+    /// Angle χ by which the balls have turned \[rad\].
+    fn ball_angle(&self, rotation: &Rotation) -> f64 {
+        let [by_cage, by_shaft] = self.spin;
+        by_cage * (rotation.cage_angle - self.initial_cage_angle) + by_shaft * rotation.shaft_angle
+    }
+
     /// The profile at the given cage and shaft angles, with rates from their speeds.
     pub fn at_rotation(&self, rotation: &Rotation) -> ProfileState<'_> {
         let Rotation { cage_angle, cage_speed, shaft_angle, shaft_speed } = *rotation;
@@ -203,10 +240,7 @@ impl Profile {
             ball: if self.balls.is_empty() {
                 SurfaceAngle::default()
             } else {
-                SurfaceAngle::new(
-                    by_cage * (cage_angle - self.initial_cage_angle) + by_shaft * shaft_angle,
-                    by_cage * cage_speed + by_shaft * shaft_speed,
-                )
+                SurfaceAngle::new(self.ball_angle(rotation), by_cage * cage_speed + by_shaft * shaft_speed)
             },
         }
     }

@@ -95,6 +95,30 @@ impl Raceway {
         }
     }
 
+    /// Whether one of the balls at multiples of `spacing`, a whole part of 2π, is on a defect at some time while the first one
+    /// moves from an angle to another \[rad\], both ends included.
+    pub fn meets_defect(&self, [from, to]: [f64; 2], spacing: f64) -> bool {
+        let (low, high) = (from.min(to), from.max(to));
+        // Ball k is on it at some time from (start − high)/spacing to (start + extent − low)/spacing.
+        let meets = |f: &Feature| {
+            ((f.start + f.angle - low) / spacing).floor() >= ((f.start - high) / spacing).ceil()
+        };
+        self.defects.iter().any(meets)
+    }
+
+    /// Calls `visit` with the part of the way at every passage of such a ball over the start or the end of a defect.
+    pub fn each_edge(&self, [from, to]: [f64; 2], spacing: f64, mut visit: impl FnMut(f64)) {
+        let (low, high) = (from.min(to), from.max(to));
+        for edge in self.defects.iter().flat_map(|f| [f.start, f.start + f.angle]) {
+            // Ball k is there when the first one is at edge − k spacing.
+            let mut k = ((edge - high) / spacing).floor() + 1.0;
+            while edge - k * spacing > low {
+                visit((edge - k * spacing - from) / (to - from));
+                k += 1.0;
+            }
+        }
+    }
+
     /// Σ ±|H|^{3/2} over the defects \[m^1.5\].
     pub fn signed_power_sum(&self, angle: f64) -> f64 {
         let power = |[h, _]: [f64; 2]| h * h.abs().sqrt();

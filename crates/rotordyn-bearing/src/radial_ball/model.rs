@@ -74,6 +74,14 @@ impl BearingElement for RadialElement {
         self.balls()
     }
 
+    fn has_defects(&self) -> bool {
+        self.profile.as_ref().is_some_and(|profile| profile.has_defects())
+    }
+
+    fn meets_defect(&self, from: &Rotation, to: &Rotation) -> bool {
+        self.profile.as_ref().is_some_and(|profile| profile.meets_defect(from, to))
+    }
+
     fn cage_ratio(&self, _mean_cos: f64) -> f64 {
         Self::cage_ratio(self)
     }

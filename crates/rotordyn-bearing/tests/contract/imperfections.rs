@@ -6,9 +6,10 @@ use crate::ball_combinations::{
 };
 use crate::bearing::rig_6205;
 use rotordyn_bearing::{
-    BallBearing, BallElement, BallInertia, BallSpin, BallWave, Defect, DefectForm, DefectLaw, Imperfections,
-    OffSize, Preload, Rotation, Shape, Surface, Wave,
+    BallBearing, BallElement, BallInertia, BallSpin, BallWave, BearingElement, Defect, DefectForm, DefectLaw,
+    Imperfections, OffSize, Preload, Rotation, Shape, Surface, Wave,
 };
+use std::f64::consts::TAU;
 
 /// Imperfections of every kind; defects wide enough to be under several balls at any time.
 pub fn all_imperfections(law: DefectLaw) -> Imperfections {
@@ -254,6 +255,70 @@ fn ball_defect_passes_each_race_once_per_spin_revolution() {
             }
         }
     }
+}
+
+/// A rotation meets a defect if a ball has a deviation at some time of it, and passes an edge where the first or last ball has one.
+#[test]
+fn passages_over_defects_are_where_balls_deviate() {
+    let form = DefectForm::Dent { depth: Some(2e-6), shape: Shape::HalfSine };
+    let defect = |surface, start, width| Defect { surface, row: None, start, width, form };
+    let mut random = Random(11);
+    for surface in [Surface::Outer, Surface::Inner, Surface::Ball(2)] {
+        for speed in [1.0, -1.0] {
+            let mut bearing = rig_6205();
+            bearing.imperfections.defects = vec![defect(surface, 0.4, 0.6e-3), defect(surface, 5.9, 1.3e-3)];
+            let element = BallElement::new(&bearing);
+            let profile =
+                rotordyn_bearing::Profile::new(&bearing.geometry, &bearing.imperfections, 0, 0.0, 1e10)
+                    .unwrap();
+            let at = |shaft: f64| Rotation {
+                shaft_angle: speed * shaft,
+                shaft_speed: speed,
+                cage_angle: 0.4 * speed * shaft,
+                cage_speed: Some(0.4 * speed),
+            };
+            // Contacts in a defect, 333 times in a degree of the shaft.
+            let fine = |k: u32| TAU / 120e3 * f64::from(k);
+            // One bit for each contact that is in a defect.
+            let contacts: Vec<u32> = (0..360_000)
+                .map(|k| {
+                    let state = profile.at_rotation(&at(fine(k)));
+                    (0..bearing.geometry.balls).fold(0, |bits, j| {
+                        let [inner, outer] = state.ball(j).height.map(|height| u32::from(height != 0.0));
+                        bits << 2 | inner << 1 | outer
+                    })
+                })
+                .collect();
+            let [mut with, mut edges] = [0, 0];
+            let mut from = 0;
+            while from < 357_000 {
+                let to = from + 1 + (1500.0 * random.next().abs()) as usize;
+                let within = &contacts[from..=to];
+                let [start, end] = [from, to].map(|k| at(fine(k as u32)));
+                assert_eq!(
+                    element.meets_defect(&start, &end),
+                    within.iter().any(|bits| *bits > 0),
+                    "{surface:?} {speed} {from} {to}"
+                );
+                let mut parts = Vec::new();
+                element.each_defect_edge(&start, &end, &mut |part| parts.push(part));
+                let changes: Vec<usize> = (1..within.len())
+                    .flat_map(|k| vec![k; (within[k] ^ within[k - 1]).count_ones() as usize])
+                    .collect();
+                parts.sort_by(f64::total_cmp);
+                assert_eq!(parts.len(), changes.len(), "{surface:?} {speed} {from} {to}");
+                for (part, change) in parts.iter().zip(&changes) {
+                    let step = part * (to - from) as f64;
+                    assert!(step <= *change as f64 + 1e-6 && step >= *change as f64 - 1.0 - 1e-6);
+                }
+                with += usize::from(element.meets_defect(&start, &end));
+                edges += parts.len();
+                from = to;
+            }
+            assert!(with > 20 && edges > 20, "{with} {edges}");
+        }
+    }
+    assert!(!BallElement::new(&rig_6205()).has_defects());
 }
 
 /// At rest the reaction is the sum of the ball loads along their contact lines, and the mean cosine is weighted by load.

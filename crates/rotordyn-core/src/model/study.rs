@@ -134,6 +134,8 @@ pub struct RunUpStudy {
     pub integrator: Integrator,
     /// Time step \[s\] (first step for error control).
     pub step: f64,
+    /// Largest step while a rolling element is on a local defect, and shortly after \[s\].
+    pub defect_step: f64,
     /// Sampling rate of the stored channels \[Hz\].
     pub sample_rate: f64,
     /// Cut-off frequency of modal truncation of the linear parts \[Hz\]; infinity keeps all modes.

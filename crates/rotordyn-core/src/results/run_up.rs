@@ -72,6 +72,7 @@ impl RunUpResult {
             .number("frequency_error", "1", self.frequency_error)
             .text("end", end)
             .optional(quantity("step", "s"), "s", report.step)
+            .optional(quantity("defect_step", "s"), "s", report.defect_step)
             .quantity("requested_step", "s", self.requested_step)
             .and(StepError::document(self.step_error.as_ref()))
             .table(in_json("cage_angles"), cages)

@@ -376,7 +376,13 @@ impl Machine {
 
 /// Measured time of one step at the start of a run.
 fn step_time(reduction: &Reduction, state: State, integrator: Integrator, step: f64) -> f64 {
-    let settings = Settings { integrator, step, sample_rate: 1.0 / step, duration: TIMED_STEPS * step };
+    let settings = Settings {
+        integrator,
+        step,
+        defect_step: f64::INFINITY,
+        sample_rate: 1.0 / step,
+        duration: TIMED_STEPS * step,
+    };
     let start = Instant::now();
     let report = run(&reduction.system, state, &settings, |_| {
         if start.elapsed().as_secs_f64() > MAX_TIMED_SECONDS {

@@ -364,6 +364,7 @@ impl Machine {
         Settings {
             integrator: study.integrator,
             step: study.step,
+            defect_step: study.defect_step,
             sample_rate: study.sample_rate,
             duration: self.model.profile.duration(),
         }

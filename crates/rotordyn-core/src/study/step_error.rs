@@ -107,6 +107,7 @@ impl Machine {
         let settings = Settings {
             integrator: study.integrator,
             step: step * ratio,
+            defect_step: study.defect_step * ratio,
             sample_rate: study.sample_rate / thinning as f64,
             duration: time_end - time_begin,
         };

@@ -16,7 +16,7 @@ use rotordyn_linalg::dot;
 /// Energy balance \[J\]: kinetic + strain + contact = start + work + drive + parametric − losses + residual.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Energy {
-    /// ½ ẋᵀ ẋ (mass-normalised coordinates) and of free bodies; under a torque drive with the energy of the rotation.
+    /// ½ ẋᵀ M̂ ẋ (mass-normalised coordinates; M̂ = 1 unless fitted to the step) and of free bodies; under a torque drive with the energy of the rotation.
     pub kinetic: f64,
     /// ½ xᵀ K x of the linear parts.
     pub strain: f64,
@@ -76,6 +76,9 @@ pub struct EnergyBalance {
     v: DVector<f64>,
     /// Parametric and contact-loss power at the last state.
     powers: [f64; 2],
+    /// Displacements and velocities of the interfaces there.
+    d: Vec<f64>,
+    d_rate: Vec<f64>,
     /// Work of free bodies at the last state: given, lost \[J\].
     body_work: [f64; 2],
     rotations: Vec<Rotation>,
@@ -96,6 +99,8 @@ impl EnergyBalance {
             x: state.x.clone(),
             v: state.v.clone(),
             powers: powers(system, state),
+            d: state.d.clone(),
+            d_rate: state.d_rate.clone(),
             body_work: system.body_work(state),
             rotations: state.rotations.clone(),
             rotation: system.drive.as_ref().map(|drive| DriveEnergy::new(drive, system, state)),
@@ -135,13 +140,18 @@ impl EnergyBalance {
         self.linear.fill(0.0);
         let n = system.structure();
         system.panels.damping.mul_add(&self.v.as_slice()[..n], &mut self.linear.as_mut_slice()[..n]);
+        let at_defects = self.jumps_at_defects(system, state);
         let e = &mut self.energy;
         e.damping_loss += self.linear.dot(&self.moved);
         let now = powers(system, state);
         e.parametric += 0.5 * step * (self.powers[0] + now[0]);
         e.parametric += energy_by_speed_change(system, state, &self.rotations);
         e.contact_loss += 0.5 * step * (self.powers[1] + now[1]);
+        e.parametric += step * at_defects[0];
+        e.contact_loss += step * at_defects[1];
         self.powers = now;
+        self.d.copy_from_slice(&state.d);
+        self.d_rate.copy_from_slice(&state.d_rate);
         let body_work = system.body_work(state);
         e.parametric += body_work[0] - self.body_work[0];
         e.contact_loss += body_work[1] - self.body_work[1];
@@ -151,6 +161,37 @@ impl EnergyBalance {
         self.v.copy_from(&state.v);
         self.spin = state.spin;
         self.time = state.time;
+    }
+
+    /// What the trapezoidal rule leaves out of the mean powers of a step where they jump, at the edges of local defects: with a
+    /// jump J at the part s of the step (½ − s) J.
+    fn jumps_at_defects(&self, system: &System, state: &State) -> [f64; 2] {
+        /// Distance of the states on both sides of an edge from it, as part of the step.
+        const APART: f64 = 1e-6;
+        let mut sums = [0.0; 2];
+        let between = |a: &[f64], b: &[f64], part: f64| -> Vec<f64> {
+            a.iter().zip(b).map(|(a, b)| a + part * (b - a)).collect()
+        };
+        let mut reaction = Reaction::default();
+        for (interface, (from, to)) in
+            system.interfaces.iter().zip(self.rotations.iter().zip(&state.rotations))
+        {
+            if !interface.has_no_inertia() || system.drive.is_some() {
+                continue;
+            }
+            interface.element.each_defect_edge(from, to, &mut |part| {
+                let d = between(&self.d, &state.d, part);
+                let d_rate = between(&self.d_rate, &state.d_rate, part);
+                for (side, sign) in [(part - APART, -1.0), (part + APART, 1.0)] {
+                    let rotation = from.towards(to, side);
+                    let [at, rate] = interface.motion(&d, &d_rate, &rotation);
+                    interface.element.force(&at, &rate, &rotation, &mut reaction);
+                    sums[0] += sign * (0.5 - part) * reaction.parametric_power;
+                    sums[1] += sign * (0.5 - part) * reaction.dissipated_power;
+                }
+            });
+        }
+        sums
     }
 
     /// Work of the mean loads of the step.
@@ -209,7 +250,7 @@ impl EnergyBalance {
     /// Updates the stored energies (kinetic, strain, contact); needed before reading [`Self::energy`] only.
     pub fn update_stored_energy(&mut self, system: &System, state: &State) {
         let e = &mut self.energy;
-        e.kinetic = 0.5 * state.v.norm_squared();
+        e.kinetic = state.inertias.kinetic_energy(&state.v);
         if let Some(drive) = &system.drive {
             e.kinetic += drive.kinetic_energy(system, state);
         }

@@ -85,7 +85,7 @@ impl GeneralisedAlpha {
     /// x₁ = x₀ + h v₀ + h² ((½−β) a₀ + β a₁), v₁ = v₀ + h ((1−γ) a₀ + γ a₁).
     ///
     /// # Errors
-    /// Newton iteration that does not converge; the state is then unchanged.
+    /// Newton iteration that does not converge; the state is then unchanged, but for inertias fitted to the step.
     pub fn step(
         &mut self,
         system: &System,
@@ -93,6 +93,7 @@ impl GeneralisedAlpha {
         step: f64,
         spin: Spin,
     ) -> Result<(), StepFailure> {
+        self.fit_inertias(system, state, step);
         if let Some(drive) = &system.drive {
             return self.driven_step(system, drive, state, step);
         }
@@ -100,6 +101,16 @@ impl GeneralisedAlpha {
         self.solve(system, state, step, &spin, true, None)?;
         self.update(state, step, spin);
         Ok(())
+    }
+
+    /// Fits the inertias of a state to steps of this length, if the scheme fits them, as the next step would.
+    pub fn fit_inertias(&self, system: &System, state: &mut State, step: f64) {
+        if !self.scheme.fitted || state.inertias.are_for(step) {
+            return;
+        }
+        let values = system.natural_frequencies.iter().map(|f| self.scheme.inertia(*f, step)).collect();
+        let State { v, a, acceleration, inertias, .. } = state;
+        inertias.change(step, values, v, [a, acceleration]);
     }
 
     /// x̂ = x₀ + h v₀ + h² ((½−β) a₀ + β y) and v̂ = v₀ + h ((1−γ) a₀ + γ y) with a₁ = y for ẍ₁ = 0, and the cage angles at
@@ -111,10 +122,14 @@ impl GeneralisedAlpha {
         let by_square = step * step;
         let x_by = [by_square * (0.5 - beta + beta * mean.before), by_square * beta * mean.start];
         let v_by = [step * (1.0 - gamma + gamma * mean.before), step * gamma * mean.start];
-        let start = state.x.iter().zip(&state.v).zip(&state.a).zip(&state.acceleration);
-        for ((x, v), (((x0, v0), a0), acceleration)) in self.x.iter_mut().zip(&mut self.v).zip(start) {
-            *x = x0 + step * v0 + (x_by[0] * a0 + x_by[1] * acceleration);
-            *v = v0 + (v_by[0] * a0 + v_by[1] * acceleration);
+        // Slices of one length, for vector instructions.
+        let n = self.x.len();
+        let [x0, v0, a0, acceleration] =
+            [&state.x, &state.v, &state.a, &state.acceleration].map(|y| &y.as_slice()[..n]);
+        let (x, v) = (self.x.as_mut_slice(), &mut self.v.as_mut_slice()[..n]);
+        for k in 0..n {
+            x[k] = x0[k] + step * v0[k] + (x_by[0] * a0[k] + x_by[1] * acceleration[k]);
+            v[k] = v0[k] + (v_by[0] * a0[k] + v_by[1] * acceleration[k]);
         }
     }
 
@@ -169,14 +184,15 @@ impl GeneralisedAlpha {
         let gain = self.scheme.gain(step);
         let mean = self.scheme.mean();
         self.forces.push(&state.force, step);
-        let end = self.x.iter().zip(&self.v).zip(&self.acceleration);
+        let n = self.x.len();
+        let [x_hat, v_hat, at_end] = [&self.x, &self.v, &self.acceleration].map(|y| &y.as_slice()[..n]);
         let State { x, v, a, acceleration, .. } = state;
-        let to = x.iter_mut().zip(v).zip(a).zip(acceleration);
-        for ((((x, v), a), acceleration), ((x_hat, v_hat), at_end)) in to.zip(end) {
-            *x = x_hat + gain.position * at_end;
-            *v = v_hat + gain.velocity * at_end;
-            *a = mean.end * at_end + (mean.start * *acceleration + mean.before * *a);
-            *acceleration = *at_end;
+        let [x, v, a, acceleration] = [x, v, a, acceleration].map(|y| &mut y.as_mut_slice()[..n]);
+        for k in 0..n {
+            x[k] = x_hat[k] + gain.position * at_end[k];
+            v[k] = v_hat[k] + gain.velocity * at_end[k];
+            a[k] = mean.end * at_end[k] + (mean.start * acceleration[k] + mean.before * a[k]);
+            acceleration[k] = at_end[k];
         }
         state.time += step;
         state.spin = spin;

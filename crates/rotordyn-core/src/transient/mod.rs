@@ -2,9 +2,11 @@
 //! constant speed.
 
 pub mod cage;
+mod defect_steps;
 pub mod energy;
 mod free_bodies;
 pub mod generalised_alpha;
+pub mod inertias;
 pub mod interface;
 mod loads;
 mod numbers;

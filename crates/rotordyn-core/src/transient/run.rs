@@ -3,10 +3,12 @@
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
+use super::defect_steps::{DefectSteps, Vibration};
 use super::energy::{Energy, EnergyBalance};
 use super::stepper::{Stepper, StepperMemory, check_divergence};
 use super::system::{State, System};
 use crate::assembly::PhysicsError;
+use crate::model::Quantity;
 use crate::model::study::Integrator;
 
 /// Integrator, step and sampling of a run.
@@ -15,6 +17,9 @@ pub struct Settings {
     pub integrator: Integrator,
     /// Largest step \[s\]; the actual step divides the sampling interval.
     pub step: f64,
+    /// Largest step while a rolling element is on a local defect, and shortly after \[s\]; infinite: as all the others. Not
+    /// under error control.
+    pub defect_step: f64,
     /// Sampling rate \[Hz\].
     pub sample_rate: f64,
     /// Duration of the run \[s\]: to this time, if it starts at t = 0.
@@ -33,10 +38,35 @@ pub struct Sample<'a> {
     pub steps: &'a [f64],
     /// Number of these steps in a sampling interval; 1 under error control.
     pub steps_per_sample: usize,
+    /// The same within those of these steps that were divided.
+    pub divided: Divided<'a>,
     /// Their means over the interval since the sample before, with free bodies; else empty.
     pub means: &'a [f64],
     pub energy: &'a Energy,
     run: RunParts<'a>,
+}
+
+/// Channels within the divided steps of a sampling interval.
+#[derive(Clone, Copy)]
+pub struct Divided<'a> {
+    /// Number of equal parts of a divided step; 1 if no step of the run is divided.
+    pub parts: usize,
+    /// Which steps of the interval were divided.
+    pub is_divided: &'a [bool],
+    /// Values of the channels at the end of every part of these steps, one after the other.
+    pub values: &'a [f64],
+    /// Jumps where the length of the steps changes.
+    pub jumps: &'a [Jump],
+}
+
+/// Change of velocities and accelerations at the start of a step of another length, with inertias fitted to the length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Jump {
+    /// Index of the step in the sampling interval.
+    pub step: usize,
+    /// What the integral of every channel over time lacks by the trapezoidal rule, for an acceleration the change of velocity,
+    /// over the length of a part.
+    pub means: Vec<f64>,
 }
 
 /// What a snapshot takes from a run beside its state.
@@ -45,6 +75,7 @@ struct RunParts<'a> {
     start: f64,
     last: usize,
     stepper: &'a Stepper,
+    defects: &'a DefectSteps,
     balance: &'a EnergyBalance,
     means: &'a IntervalMeans,
 }
@@ -62,6 +93,7 @@ impl Sample<'_> {
             start: self.run.start,
             state: self.state.clone(),
             stepper: self.run.stepper.memory(),
+            vibration: self.run.defects.vibration(),
             balance: self.run.balance.clone(),
             channels: self.run.means.now.clone(),
         }
@@ -76,6 +108,8 @@ pub struct RunSnapshot {
     start: f64,
     state: State,
     stepper: StepperMemory,
+    /// That around the last passage over a local defect.
+    vibration: Vibration,
     balance: EnergyBalance,
     /// Channels at the last step, with free bodies.
     channels: Vec<f64>,
@@ -111,6 +145,8 @@ impl RunSnapshot {
 pub struct Report {
     /// Step used, with free bodies the shortest \[s\]; `None` if error control chose the steps.
     pub step: Option<f64>,
+    /// Length of the parts of steps that were divided on local defects \[s\]; `None` if no step is.
+    pub defect_step: Option<f64>,
     pub samples: usize,
     pub steps: u64,
     /// Newton iterations of an implicit run.
@@ -128,6 +164,7 @@ impl Report {
     pub fn not_started(error: PhysicsError) -> Self {
         Self {
             step: None,
+            defect_step: None,
             samples: 0,
             steps: 0,
             iterations: 0,
@@ -163,6 +200,7 @@ pub fn run(
     let run = Run {
         start: state.time,
         stepper: Stepper::new(system, settings.integrator, grid.step),
+        defects: DefectSteps::new(system, grid.step, settings.defect_step, Vibration::default()),
         balance: EnergyBalance::new(system, &state),
         means: IntervalMeans::new(system, &state),
         state,
@@ -186,11 +224,13 @@ pub fn resume(
     if !snapshot.fits(system, settings.integrator) {
         return Report::not_started(PhysicsError::OtherSnapshot { time: snapshot.time() });
     }
-    let RunSnapshot { index, start, state, stepper, balance, channels } = snapshot;
+    let RunSnapshot { index, start, state, stepper, vibration, balance, channels } = snapshot;
+    let grid = Grid::new(settings);
+    let defects = DefectSteps::new(system, grid.step, settings.defect_step, vibration);
     let stepper = Stepper::after(system, settings.integrator, &stepper);
     let means = IntervalMeans::after(channels);
-    let run = Run { start, state, stepper, balance, means };
-    run.perform(system, &Grid::new(settings), index + 1, observe)
+    let run = Run { start, state, stepper, defects, balance, means };
+    run.perform(system, &grid, index + 1, observe)
 }
 
 /// Times of a run: `calls` of the stepper of length `step` between two samples.
@@ -217,8 +257,27 @@ struct Run {
     start: f64,
     state: State,
     stepper: Stepper,
+    defects: DefectSteps,
     balance: EnergyBalance,
     means: IntervalMeans,
+}
+
+/// Channels in a sampling interval: at the end of every step, and of every part of the divided ones.
+#[derive(Default)]
+struct IntervalChannels {
+    steps: Vec<f64>,
+    is_divided: Vec<bool>,
+    parts: Vec<f64>,
+    jumps: Vec<Jump>,
+}
+
+impl IntervalChannels {
+    fn clear(&mut self) {
+        self.steps.clear();
+        self.is_divided.clear();
+        self.parts.clear();
+        self.jumps.clear();
+    }
 }
 
 impl Run {
@@ -235,27 +294,29 @@ impl Run {
         from: usize,
         mut observe: impl FnMut(&Sample) -> ControlFlow<()>,
     ) -> Report {
-        let mut steps = Vec::new();
+        let mut interval = IntervalChannels::default();
         let (mut seen, mut end) = (from, End::Complete);
         for index in from..=grid.samples {
-            steps.clear();
+            interval.clear();
             if index == 0 {
-                read_channels(system, &self.state, &mut steps);
-            } else if let Err(error) = self.advance(system, grid, index, &mut steps) {
+                read_channels(system, &self.state, &mut interval.steps);
+            } else if let Err(error) = self.advance(system, grid, index, &mut interval) {
                 end = End::Failed(error);
                 break;
             }
             self.balance.update_stored_energy(system, &self.state);
             seen = index + 1;
-            let Self { start, state, stepper, balance, means } = &self;
-            let run = RunParts { start: *start, last: grid.samples, stepper, balance, means };
+            let Self { start, state, stepper, defects, balance, means } = &self;
+            let run = RunParts { start: *start, last: grid.samples, stepper, defects, balance, means };
+            let IntervalChannels { steps, is_divided, parts, jumps } = &interval;
             let sample = Sample {
                 system,
                 index,
                 state,
                 channels: &steps[steps.len() - system.channels.len()..],
-                steps: &steps,
+                steps,
                 steps_per_sample: if stepper.is_adaptive() { 1 } else { grid.calls },
+                divided: Divided { parts: defects.parts(), is_divided, values: parts, jumps },
                 means: &means.sums,
                 energy: &balance.energy,
                 run,
@@ -266,8 +327,10 @@ impl Run {
             }
         }
         let (iterations, refactored) = self.stepper.iteration_counts();
+        let parts = self.defects.parts();
         Report {
             step: self.step(grid).map(|step| step.min(self.stepper.shortest_step())),
+            defect_step: self.step(grid).filter(|_| parts > 1).map(|step| step / parts as f64),
             samples: seen,
             steps: self.stepper.steps,
             iterations,
@@ -278,29 +341,64 @@ impl Run {
         }
     }
 
-    /// Steps from the sample before to the one at `index`; appends the channels at the end of every step to `steps`.
+    /// Steps from the sample before to the one at `index`, with their channels.
     fn advance(
         &mut self,
         system: &System,
         grid: &Grid,
         index: usize,
-        steps: &mut Vec<f64>,
+        channels: &mut IntervalChannels,
     ) -> Result<(), PhysicsError> {
-        let Self { start, state, stepper, balance, means } = self;
+        let Self { start, state, stepper, defects, balance, means } = self;
         // Error control chooses the steps between two samples.
-        let (calls, step) = if stepper.is_adaptive() { (1, grid.interval) } else { (grid.calls, grid.step) };
+        let is_adaptive = stepper.is_adaptive();
+        let (calls, step) = if is_adaptive { (1, grid.interval) } else { (grid.calls, grid.step) };
         means.restart();
         for k in 0..calls {
-            let end = *start + ((index - 1) * calls + k + 1) as f64 * step;
-            stepper.advance(system, state, step, end, &mut |state, taken| {
-                finish_step(system, state, balance);
-                means.add(system, state, taken / grid.interval);
-                Ok(())
-            })?;
-            read_channels(system, state, steps);
+            let parts = if is_adaptive { 1 } else { defects.divide(system, state, step) };
+            let part = step / parts as f64;
+            if defects.parts() > 1
+                && let Some(impulses) = fit_inertias(system, state, stepper, part)
+            {
+                let shortest = step / defects.parts() as f64;
+                let means = impulses.into_iter().map(|impulse| impulse / shortest).collect();
+                channels.jumps.push(Jump { step: k, means });
+            }
+            let steps_before = ((index - 1) * calls + k) as f64;
+            for p in 1..=parts {
+                let end = *start + (steps_before + p as f64 / parts as f64) * step;
+                stepper.advance(system, state, part, end, &mut |state, taken| {
+                    finish_step(system, state, balance);
+                    means.add(system, state, taken / grid.interval);
+                    Ok(())
+                })?;
+                if parts > 1 {
+                    read_channels(system, state, &mut channels.parts);
+                }
+            }
+            read_channels(system, state, &mut channels.steps);
+            channels.is_divided.push(parts > 1);
         }
         check_divergence(system, state)
     }
+}
+
+/// Prepares a state for a step; the impulses of its channels if velocities and accelerations jump.
+fn fit_inertias(system: &System, state: &mut State, stepper: &Stepper, step: f64) -> Option<Vec<f64>> {
+    if state.inertias.are_for(step) {
+        return None;
+    }
+    let read = |state: &State| -> Vec<[f64; 2]> {
+        system.channels.iter().map(|channel| channel.velocity_and_value(state)).collect()
+    };
+    let before = read(state);
+    stepper.fit_inertias(system, state, step);
+    let after = read(state);
+    let impulses = system.channels.iter().zip(before.iter().zip(&after)).map(|(channel, (before, after))| {
+        let jump = if channel.quantity == Quantity::Acceleration { after[0] - before[0] } else { 0.0 };
+        jump + 0.5 * step * (after[1] - before[1])
+    });
+    Some(impulses.collect())
 }
 
 /// Appends the channels of a state to `out`.

@@ -190,6 +190,13 @@ impl Stepper {
         Ok(())
     }
 
+    /// Prepares a state for steps of another length: velocities and accelerations may change with fitted inertias.
+    pub fn fit_inertias(&self, system: &System, state: &mut State, step: f64) {
+        if let Method::Implicit(method) = &self.method {
+            method.fit_inertias(system, state, step);
+        }
+    }
+
     /// Takes one step of exactly this length, neither halved nor rejected, as a perturbed trajectory must.
     ///
     /// # Errors

@@ -8,6 +8,7 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
+use super::inertias::Inertias;
 use super::interface::{Interface, StepTangents};
 use super::numbers::vector;
 use super::panels::Panels;
@@ -41,6 +42,13 @@ impl Channel {
             Quantity::Velocity => &state.v,
             Quantity::Acceleration => &state.a,
         })
+    }
+}
+
+impl Channel {
+    /// Velocity of the channel's row, and the channel's value.
+    pub fn velocity_and_value(&self, state: &State) -> [f64; 2] {
+        [self.row.dot(&state.v), self.read(state)]
     }
 }
 
@@ -89,6 +97,8 @@ pub struct State {
     /// ẍ of the equations of motion.
     #[serde(with = "vector")]
     pub acceleration: DVector<f64>,
+    /// Inertias of an implicit integrator, for which v, a and ẍ hold.
+    pub inertias: Inertias,
     /// Per interface: angle and speed of cage and shaft.
     pub rotations: Vec<Rotation>,
     /// Per interface: force, tangents and energies at this state.
@@ -390,6 +400,7 @@ impl System {
             v,
             a: DVector::zeros(n),
             acceleration: DVector::zeros(n),
+            inertias: Inertias::default(),
             rotations,
             reactions: vec![Reaction::default(); self.interfaces.len()],
             d: vec![0.0; places],
@@ -444,12 +455,13 @@ impl System {
         }
     }
 
-    /// ẍ = p + Wᵀ f − (C + Ω G) ẋ − (K + …) x of a state; under a torque drive without its coupling loads.
+    /// M̂ ẍ = p + Wᵀ f − (C + Ω G) ẋ − (K + …) x of a state; under a torque drive without its coupling loads.
     pub fn update_acceleration(&self, state: &mut State) {
         let mut acceleration = std::mem::take(&mut state.acceleration);
         self.load(state.time, &state.spin, &mut acceleration);
         self.add_linear(&state.spin, [&state.x, &state.v], -1.0, &mut Vec::new(), &mut acceleration);
         self.add_from_interface(&state.force, &mut acceleration);
+        state.inertias.divide(&mut acceleration);
         state.acceleration = acceleration;
     }
 

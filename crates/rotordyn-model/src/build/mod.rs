@@ -28,6 +28,7 @@ mod radial_bearing;
 mod rotor;
 mod rotor_studies;
 mod run_keys;
+mod run_up;
 mod shaft;
 mod springs;
 mod steady;

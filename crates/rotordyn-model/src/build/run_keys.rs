@@ -51,6 +51,9 @@ const LARGEST_STEP_US: f64 = 100.0;
 /// Steps in a period of the highest order line that is looked at.
 const STEPS_PER_PERIOD: f64 = 90.0;
 
+/// Steps in which a ball passes over a local defect at the highest speed.
+const STEPS_ON_DEFECT: f64 = 40.0;
+
 /// Step of a run without one \[us\], in two digits.
 ///
 /// Steps of second order shift a natural frequency ω_n by the share (ω_n h)²/12. A line that passes the resonance changes by
@@ -60,10 +63,25 @@ pub(super) fn default_step_us(model: &Model, cuts: &[f64], speed: f64) -> f64 {
     let balls = model.bearings.iter().filter_map(|site| site.bearing.characteristic_orders());
     let passes = balls.map(|orders| orders.bpfo);
     let highest = passes.chain(cuts.iter().copied()).fold(2.0, f64::max);
-    // A picosecond for orders that cannot be meant, whose number of steps is then refused.
-    let step = (1e6 * TAU / (STEPS_PER_PERIOD * highest * speed)).max(1e-6);
+    in_two_digits(1e6 * TAU / (STEPS_PER_PERIOD * highest * speed)).min(LARGEST_STEP_US)
+}
+
+/// Step on a local defect of a run without one \[us\], in two digits; `None` without defects.
+///
+/// `speed`: the highest \[rad/s\].
+pub(super) fn default_defect_step_us(model: &Model, speed: f64) -> Option<f64> {
+    let balls = model.bearings.iter().filter(|site| site.bearing.free_balls().is_none());
+    let passes = balls.filter_map(|site| site.bearing.ball()?.shortest_defect_pass());
+    let shortest = passes.min_by(f64::total_cmp)?;
+    Some(in_two_digits(1e6 * shortest / (STEPS_ON_DEFECT * speed)).min(LARGEST_STEP_US))
+}
+
+/// A step \[us\] rounded down.
+fn in_two_digits(step: f64) -> f64 {
+    // A picosecond for orders and defects that cannot be meant, whose number of steps is then refused.
+    let step = step.max(1e-6);
     match step {
-        _ if step >= LARGEST_STEP_US => LARGEST_STEP_US,
+        _ if step >= 100.0 => step,
         _ if step >= 10.0 => step.floor(),
         _ => {
             // Below 10 us one digit more for every power of ten, divided and not multiplied: 8.8 as it is written.

@@ -1,7 +1,10 @@
 //! Studies of steady motion at constant speed: Poincaré sections, Lyapunov exponents, bifurcation diagrams.
 
 use super::bifurcation_parameter::{ParameterKeys, parameter};
-use super::run_keys::{IntegratorKeys, channels, default_integrator, default_step_us, integrator, top_speed};
+use super::run_keys::{
+    IntegratorKeys, channels, default_defect_step_us, default_integrator, default_step_us, integrator,
+    top_speed,
+};
 use super::work_limits;
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{
@@ -203,11 +206,16 @@ fn steady(
     let [transient_periods, periods] = [transient_periods, periods].map(|key| r.count(key));
     let limit = DEFAULT_LIMIT_FACTOR * (transient_periods + periods);
     let speed = r.or(&STEADY.speed, top);
-    let step = || default_step_us(model, &[], speed.max(top_speed(model))) / 1e6;
+    // Steps of runs at constant speed are equal: those on a local defect are the shortest.
+    let step = || {
+        let highest = speed.max(top_speed(model));
+        let on_defects = default_defect_step_us(model, highest).unwrap_or(f64::INFINITY);
+        default_step_us(model, &[], highest).min(on_defects) / 1e6
+    };
     let settings = SteadyRunSettings {
         speed,
         integrator: integrator(r, run_up.map_or_else(|| default_integrator(model), |s| s.integrator), model),
-        step: r.or(&STEADY.step, run_up.map_or_else(step, |s| s.step)),
+        step: r.or(&STEADY.step, run_up.map_or_else(step, |s| s.step.min(s.defect_step))),
         cutoff: r.or(&STEADY.cutoff, run_up.map_or(f64::INFINITY, |s| s.cutoff)),
         trigger: section_trigger(r, model),
         phase: r.value(&STEADY.phase),

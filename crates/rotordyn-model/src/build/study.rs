@@ -3,13 +3,12 @@
 use super::bearing_study::{self, BearingStudyKeys};
 use super::default_points;
 use super::increasing::check_increasing;
-use super::loading::{self, DirectionKeys, QUANTITIES, anchor_and_direction};
+use super::loading::{DirectionKeys, QUANTITIES, anchor_and_direction};
 use super::orders::{ORDER, orders};
 use super::places::{AnchorKeys, Places};
 use super::rotor_studies::{self, RotorStudyKeys};
-use super::run_keys::{
-    IntegratorKeys, RUN_STEP, StepKeys, channels, default_integrator, default_step_us, integrator, top_speed,
-};
+use super::run_keys::{RUN_STEP, channels, default_step_us, top_speed};
+use super::run_up::{self, RUN_UP, RUN_UP_TABLE};
 use super::steady::{self, SteadyStudyKeys};
 use super::work_limits;
 use crate::file::diagnostic::{Kind, Problem};
@@ -21,9 +20,9 @@ use crate::file::key::{
 use crate::file::reader::Reader;
 use crate::study::{
     BearingStudy, CampbellStudy, CriticalStudy, EquilibriumStudy, Excitation, FrfStudy, ModalStudy,
-    MotionSettings, OrderStudy, RunUpStudy, SpectrogramStudy, Studies, UnbalanceStudy, WindowKind,
+    OrderStudy, SpectrogramStudy, Studies, UnbalanceStudy, WindowKind,
 };
-use crate::{Drive, Model, Probe, Quantity as MotionQuantity};
+use crate::{Model, Probe, Quantity as MotionQuantity};
 use rotordyn_bearing::Bearing;
 use rotordyn_units::{FREQUENCY, NUMBER, SPEED, TIME};
 
@@ -147,35 +146,6 @@ keys! {
     }
 }
 
-static RUN_UP_TABLE: Table = Table {
-    meaning: "Nonlinear transient run through the profile of [speed].",
-    groups: &[
-        Group::always(StepKeys::LIST),
-        Group::always(RunUpKeys::LIST),
-        Group::always(IntegratorKeys::LIST),
-    ],
-};
-
-keys! {
-    /// `[study.run_up]`.
-    pub(super) static RUN_UP: RunUpKeys {
-        sample_rate: Quantity = quantity(positive(FREQUENCY), "Sampling rate of the channels; what probes hold above 0.39 of it is filtered out.").default("2 kHz");
-        cutoff: Quantity = quantity(positive(FREQUENCY), "Modes below it are kept, with static correction modes.")
-            .computed("all modes").example("\"2 kHz\"");
-        from_equilibrium: Flag = flag("Start at static equilibrium, otherwise at rest without loads.")
-            .default("true");
-        cage_phases: Count = count([0, 360], "Runs with this many cage phases, for the range of the order cuts.")
-            .default("0").example("8");
-        motion_rate: Quantity = quantity(positive(FREQUENCY),
-            "Frames per second of the run of the motion of all parts, for animations.")
-            .computed("not recorded; with motion_from or motion_to that of the samples").example("\"2 kHz\"");
-        motion_from: Quantity = quantity(not_negative(TIME), "Time of the first frame.").computed("the start of the run")
-            .example("\"0.1 s\"");
-        motion_to: Quantity = quantity(positive(TIME), "Time of the last frame.").computed("the end of the run")
-            .example("\"0.2 s\"");
-    }
-}
-
 keys! {
     /// Windows of `[study.spectrogram]` and `[study.orders]`.
     static WINDOW: WindowKeys {
@@ -272,7 +242,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
     }
     let run_up_table = all.table(&STUDY.run_up);
     if let Some(r) = &run_up_table {
-        studies.run_up = Some(run_up(top, r, model));
+        studies.run_up = Some(run_up::read(top, r, model, all.has(&STUDY.orders)));
     }
     let sample_rate = studies.run_up.as_ref().map_or(0.0, |s| s.sample_rate);
     if let Some(r) = all.table(&STUDY.spectrogram) {
@@ -292,7 +262,12 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
             study.step = step / 1e6;
             r.taken_by_default(&RUN_STEP.step, format!("\"{step} us\""));
         }
-        work_limits::check_run_up(&r, [&RUN_STEP.step, &RUN_UP.sample_rate], study, model.profile.duration());
+        work_limits::check_run_up(
+            &r,
+            [&RUN_STEP.step, &RUN_UP.defect_step, &RUN_UP.sample_rate],
+            study,
+            model.profile.duration(),
+        );
         r.finish();
     }
     rotor_studies::read(&all, model, &mut studies);
@@ -373,75 +348,6 @@ fn responses(r: &Reader, model: &Model, quantity: MotionQuantity) -> Vec<Probe> 
         r.log.error(problem.hint("add [probe.NAME] with at, direction and quantity"));
     }
     chosen
-}
-
-fn run_up(top: &Reader, r: &Reader, model: &Model) -> RunUpStudy {
-    if !top.has(&loading::TOP.speed) {
-        let problem = Problem::new(Kind::MissingKey, &r.span, "study.run_up needs a speed profile");
-        r.log.error(problem.hint("add [speed] with profile = \"ramp\", to = \"1200 rpm\", ramp = \"10 s\""));
-    }
-    if !r.has(&RUN_UP.cutoff) {
-        r.taken_by_default(&RUN_UP.cutoff, "all modes");
-    }
-    RunUpStudy {
-        integrator: integrator(r, default_integrator(model), model),
-        step: r.get(&RUN_STEP.step).unwrap_or(f64::INFINITY),
-        sample_rate: r.value(&RUN_UP.sample_rate),
-        cutoff: r.or(&RUN_UP.cutoff, f64::INFINITY),
-        from_equilibrium: r.flag(&RUN_UP.from_equilibrium),
-        cage_phases: cage_phases(top, r, model),
-        motion: motion(r),
-    }
-}
-
-/// Frames of the recorded motion: not faster than the samples, within a time that has some.
-fn motion(r: &Reader) -> Option<MotionSettings> {
-    let [rate, from, to] = [&RUN_UP.motion_rate, &RUN_UP.motion_from, &RUN_UP.motion_to];
-    if ![rate, from, to].into_iter().any(|key| r.has(key)) {
-        return None;
-    }
-    let sample_rate = r.value(&RUN_UP.sample_rate);
-    let settings =
-        MotionSettings { rate: r.or(rate, sample_rate), from: r.or(from, 0.0), to: r.or(to, f64::INFINITY) };
-    if settings.rate > sample_rate {
-        let message = format!("{} is above the sampling rate", r.name(rate));
-        let problem = Problem::new(Kind::OutOfRange, &r.span_of(rate), message);
-        r.log.error(problem.hint("raise study.run_up.sample_rate"));
-    }
-    if settings.to < settings.from {
-        r.error(Kind::OutOfRange, to, format!("{} is before {}", r.name(to), r.name(from)));
-    }
-    Some(settings)
-}
-
-/// Number of cage phases: of a machine with a ball bearing and a prescribed speed, whose order cuts are requested.
-fn cage_phases(top: &Reader, r: &Reader, model: &Model) -> usize {
-    let count = r.count(&RUN_UP.cage_phases);
-    if count == 0 || !r.has_no_errors() {
-        return count;
-    }
-    let conflict = if count == 1 {
-        Some(("is 1: one phase has no range", "give 2 phases or more, such as 8"))
-    } else if model.bearings.iter().all(|site| site.bearing.ball().is_none()) {
-        Some(("needs a bearing with balls", "remove it, or use model = \"ball\" in a bearing"))
-    } else if matches!(model.drive, Drive::Torque { .. }) {
-        Some((
-            "needs a prescribed speed, so that all runs have the same speeds",
-            "set drive.kind = \"prescribed\"",
-        ))
-    } else if top.table(&TOP.study).and_then(|all| all.table(&STUDY.orders)).is_none() {
-        Some((
-            "gives a range of order cuts, but the file has no [study.orders]",
-            "add [study.orders] with cuts = [1, \"BPFO\"]",
-        ))
-    } else {
-        None
-    };
-    if let Some((problem, hint)) = conflict {
-        let message = format!("{} {problem}", r.name(&RUN_UP.cage_phases));
-        r.log.error(Problem::new(Kind::Conflict, &r.span_of(&RUN_UP.cage_phases), message).hint(hint));
-    }
-    count
 }
 
 fn spectrogram(r: &Reader, model: &Model, sample_rate: f64) -> SpectrogramStudy {

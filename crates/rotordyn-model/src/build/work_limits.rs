@@ -12,10 +12,10 @@ const MAX_STEPS: f64 = 1e12;
 /// Largest number of samples of a channel: 80 GB.
 const MAX_SAMPLES: f64 = 1e10;
 
-/// Errors at the keys of step and sampling rate of a run-up of this duration \[s\].
+/// Errors at the keys of step, step on defects and sampling rate of a run-up of this duration \[s\].
 pub(super) fn check_run_up(
     r: &Reader,
-    [step, sample_rate]: [&dyn Declared; 2],
+    [step, defect_step, sample_rate]: [&dyn Declared; 3],
     study: &RunUpStudy,
     duration: f64,
 ) {
@@ -31,6 +31,9 @@ pub(super) fn check_run_up(
         return;
     }
     check_step(r, step, study.step, duration);
+    if study.defect_step < study.step {
+        check_step(r, defect_step, study.defect_step, duration);
+    }
 }
 
 /// Errors at the keys of step and number of periods of a run at constant speed.

@@ -24,7 +24,8 @@ pub fn run_up(run: &RunUpResult) -> Vec<Warning> {
     let open = energy.residual().abs() / energy.exchanged().max(f64::MIN_POSITIVE);
     if open > OPEN_BALANCE {
         let text = format!("the energy balance of the run-up has a residual of {:.2} %", 100.0 * open);
-        warn(Code::EnergyBalance, text, "reduce the time step".into());
+        let step = if run.report.defect_step.is_some() { "step or defect_step" } else { "the time step" };
+        warn(Code::EnergyBalance, text, format!("reduce {step}"));
     }
     let worst = run.step_error.as_ref().and_then(|e| e.worst());
     if let Some(line) = worst.filter(|line| line.error.abs() > LEVEL_ERROR) {

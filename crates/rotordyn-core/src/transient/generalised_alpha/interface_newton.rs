@@ -1,9 +1,10 @@
 //! Newton's method for the bearing forces at the end of a time step, on the interface rows.
 
 use nalgebra::DVector;
+use std::ops::Range;
 
 use super::StepFailure;
-use crate::transient::interface::StepTangents;
+use crate::transient::interface::{Interface, StepTangents};
 use crate::transient::system::{Bodies, State, System};
 use rotordyn_bearing::internal::NewmarkGain;
 use rotordyn_bearing::{Reaction, Rotation};
@@ -32,6 +33,8 @@ pub(super) struct InterfaceNewton {
     /// b K + c C, block by block, and the factors of the Jacobian.
     tangent: PaddedMatrix,
     jacobian: PaddedMatrix,
+    /// Rows of every interface.
+    blocks: Vec<Range<usize>>,
     d: Vec<f64>,
     d_rate: Vec<f64>,
     /// Bearing forces: the initial guess, then the solution.
@@ -54,6 +57,7 @@ impl InterfaceNewton {
             correction: vec![0.0; rows],
             tangent: PaddedMatrix::new(rows),
             jacobian: PaddedMatrix::new(rows),
+            blocks: system.interfaces.iter().map(Interface::row_range).collect(),
             d: vec![0.0; places],
             d_rate: vec![0.0; places],
             force: vec![0.0; places],
@@ -155,7 +159,6 @@ impl InterfaceNewton {
 
     /// Jacobian I + Y (b K + c C), with the tangents block by block.
     fn linearise(&mut self, system: &System, gain: &NewmarkGain, compliance: &[f64]) {
-        let rows = system.rows();
         for (interface, reaction) in system.interfaces.iter().zip(&self.reactions) {
             let (own, count) = (interface.row_range(), interface.rows);
             let effective = &self.tangents.stiffness[interface.stiffness_range()];
@@ -173,16 +176,7 @@ impl InterfaceNewton {
                 }
             }
         }
-        for r in 0..rows {
-            let y = &compliance[r * rows..(r + 1) * rows];
-            let line = self.jacobian.row_mut(r);
-            line.fill(0.0);
-            line[r] = 1.0;
-            for interface in &system.interfaces {
-                let own = interface.row_range();
-                self.jacobian.add_rows(r, &y[own.clone()], &self.tangent, own.start, own);
-            }
-        }
+        self.jacobian.set_to_identity_plus_product(compliance, &self.tangent, &self.blocks);
     }
 
     /// u ← u − Δ; the row with the largest change of displacement, and that change.
@@ -242,8 +236,9 @@ impl InterfaceNewton {
     }
 
     /// Writes the solution to a state.
-    pub fn store(&self, state: &mut State) {
-        state.reactions.copy_from_slice(&self.reactions);
+    pub fn store(&mut self, state: &mut State) {
+        // The next step evaluates all of them again.
+        std::mem::swap(&mut state.reactions, &mut self.reactions);
         state.d.copy_from_slice(&self.d);
         state.d_rate.copy_from_slice(&self.d_rate);
         state.force.copy_from_slice(&self.force);
