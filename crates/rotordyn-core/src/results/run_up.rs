@@ -72,7 +72,6 @@ impl RunUpResult {
             .number("frequency_error", "1", self.frequency_error)
             .text("end", end)
             .optional(quantity("step", "s"), "s", report.step)
-            .optional(quantity("defect_step", "s"), "s", report.defect_step)
             .quantity("requested_step", "s", self.requested_step)
             .and(StepError::document(self.step_error.as_ref()))
             .table(in_json("cage_angles"), cages)
@@ -84,6 +83,9 @@ impl RunUpResult {
             .integer(in_json("samples"), self.summary.samples)
             .integer(in_hdf5("samples"), report.samples)
             .with(in_json("channels"), Value::Table(self.summary.columns(&self.history.channels)));
+        if let Some(step) = report.defect_step {
+            out = out.quantity("defect_step", "s", step);
+        }
         if let Some(comparison) = &self.cage_comparison {
             out = out.group("cage_comparison", comparison.document());
         }

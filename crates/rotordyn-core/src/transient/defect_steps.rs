@@ -26,6 +26,8 @@ pub struct DefectSteps {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Vibration {
     is_divided: bool,
+    /// Number of parts of the last step; 0 before the first one.
+    parts: usize,
     /// Largest one since the passage began.
     peak: f64,
     /// Number of steps for which it has been low.
@@ -51,16 +53,19 @@ impl DefectSteps {
         self.vibration
     }
 
-    /// Number of equal parts of the next step, from a state on.
-    pub fn divide(&mut self, system: &System, state: &State, step: f64) -> usize {
+    /// Number of equal parts of the next step, from a state on, and that of the last step if it was another one.
+    pub fn divide(&mut self, system: &System, state: &State, step: f64) -> (usize, Option<usize>) {
         if self.parts == 1 {
-            return 1;
+            return (1, None);
         }
         let spin = system.spin_ahead(state.time, &state.spin, step);
         cage::advance(system, state, &spin, &mut self.rotations);
         let mut moved = system.interfaces.iter().zip(state.rotations.iter().zip(&self.rotations));
         let meets_defect = moved.any(|(i, (from, to))| i.element.meets_defect(from, to));
-        if self.vibration.observe(meets_defect, state.acceleration.norm()) { self.parts } else { 1 }
+        let divided = self.vibration.observe(meets_defect, state.acceleration.norm());
+        let parts = if divided { self.parts } else { 1 };
+        let last = std::mem::replace(&mut self.vibration.parts, parts);
+        (parts, Some(last).filter(|last| *last > 0 && *last != parts))
     }
 }
 
@@ -75,7 +80,7 @@ impl Vibration {
         let is_low = !meets_defect && level <= DECAYED * self.peak;
         self.low = if is_low { self.low + 1 } else { 0 };
         if self.low > LOW_STEPS {
-            *self = Self::default();
+            *self = Self { parts: self.parts, ..Self::default() };
         }
         self.is_divided
     }

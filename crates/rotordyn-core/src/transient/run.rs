@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use super::defect_steps::{DefectSteps, Vibration};
 use super::energy::{Energy, EnergyBalance};
 use super::stepper::{Stepper, StepperMemory, check_divergence};
-use super::system::{State, System};
+use super::system::{Channel, State, System};
 use crate::assembly::PhysicsError;
 use crate::model::Quantity;
 use crate::model::study::Integrator;
@@ -59,7 +59,7 @@ pub struct Divided<'a> {
     pub jumps: &'a [Jump],
 }
 
-/// Change of velocities and accelerations at the start of a step of another length, with inertias fitted to the length.
+/// What a step of another length changes at its start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Jump {
     /// Index of the step in the sampling interval.
@@ -355,11 +355,10 @@ impl Run {
         let (calls, step) = if is_adaptive { (1, grid.interval) } else { (grid.calls, grid.step) };
         means.restart();
         for k in 0..calls {
-            let parts = if is_adaptive { 1 } else { defects.divide(system, state, step) };
+            let (parts, last) = if is_adaptive { (1, None) } else { defects.divide(system, state, step) };
             let part = step / parts as f64;
-            if defects.parts() > 1
-                && let Some(impulses) = fit_inertias(system, state, stepper, part)
-            {
+            if let Some(last) = last {
+                let impulses = change_step(system, state, stepper, [step / last as f64, part]);
                 let shortest = step / defects.parts() as f64;
                 let means = impulses.into_iter().map(|impulse| impulse / shortest).collect();
                 channels.jumps.push(Jump { step: k, means });
@@ -383,22 +382,25 @@ impl Run {
     }
 }
 
-/// Prepares a state for a step; the impulses of its channels if velocities and accelerations jump.
-fn fit_inertias(system: &System, state: &mut State, stepper: &Stepper, step: f64) -> Option<Vec<f64>> {
-    if state.inertias.are_for(step) {
-        return None;
-    }
+/// Prepares a state for steps of another length; of every channel, what its integral over time lacks by the trapezoidal rule.
+///
+/// Velocities and accelerations may jump, from v₀ to v₁ and from a₀ to a₁. A step of length h changes the velocity by the mean of
+/// its accelerations plus h (γ − ½) of their change, which adds up to nothing but where h changes from h₀ to h₁: together
+/// v₁ − v₀ + ½ h₁ (a₁ − a₀) + (γ − ½)(h₀ a₀ − h₁ a₁) for an acceleration, ½ h₁ (v₁ − v₀) + (β − ½γ)(h₀² a₀ − h₁² a₁) for a velocity.
+fn change_step(system: &System, state: &mut State, stepper: &Stepper, [h0, h1]: [f64; 2]) -> Vec<f64> {
     let read = |state: &State| -> Vec<[f64; 2]> {
-        system.channels.iter().map(|channel| channel.velocity_and_value(state)).collect()
+        system.channels.iter().map(|channel| channel.velocity_and_acceleration(state)).collect()
     };
     let before = read(state);
-    stepper.fit_inertias(system, state, step);
+    stepper.fit_inertias(system, state, h1);
     let after = read(state);
-    let impulses = system.channels.iter().zip(before.iter().zip(&after)).map(|(channel, (before, after))| {
-        let jump = if channel.quantity == Quantity::Acceleration { after[0] - before[0] } else { 0.0 };
-        jump + 0.5 * step * (after[1] - before[1])
-    });
-    Some(impulses.collect())
+    let [gamma, beta] = stepper.distance_from_trapezoidal_rule();
+    let impulse = |(channel, ([v0, a0], [v1, a1])): (&Channel, ([f64; 2], [f64; 2]))| match channel.quantity {
+        Quantity::Displacement => 0.0,
+        Quantity::Velocity => 0.5 * h1 * (v1 - v0) + beta * (h0 * h0 * a0 - h1 * h1 * a1),
+        Quantity::Acceleration => v1 - v0 + 0.5 * h1 * (a1 - a0) + gamma * (h0 * a0 - h1 * a1),
+    };
+    system.channels.iter().zip(before.into_iter().zip(after)).map(impulse).collect()
 }
 
 /// Appends the channels of a state to `out`.

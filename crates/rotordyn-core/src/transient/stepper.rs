@@ -197,6 +197,14 @@ impl Stepper {
         }
     }
 
+    /// γ − ½ and β − ½γ of an implicit method, which are 0 if velocities and displacements follow from accelerations and velocities
+    /// by the trapezoidal rule.
+    pub fn distance_from_trapezoidal_rule(&self) -> [f64; 2] {
+        let Method::Implicit(method) = &self.method else { return [0.0; 2] };
+        let scheme = method.scheme();
+        [scheme.gamma - 0.5, scheme.beta - 0.5 * scheme.gamma]
+    }
+
     /// Takes one step of exactly this length, neither halved nor rejected, as a perturbed trajectory must.
     ///
     /// # Errors

@@ -46,9 +46,9 @@ impl Channel {
 }
 
 impl Channel {
-    /// Velocity of the channel's row, and the channel's value.
-    pub fn velocity_and_value(&self, state: &State) -> [f64; 2] {
-        [self.row.dot(&state.v), self.read(state)]
+    /// Velocity and acceleration of the channel's row.
+    pub fn velocity_and_acceleration(&self, state: &State) -> [f64; 2] {
+        [&state.v, &state.a].map(|motion| self.row.dot(motion))
     }
 }
 
