@@ -52,7 +52,7 @@ impl SpacedBalls {
         (k, ((shaft_angle - self.shaft[k - 1]) / width).clamp(0.0, 1.0))
     }
 
-    /// Of every ball as of a cage of its own.
+    /// Rotation of every ball, each in a cage of its own.
     fn rotations(&self, rotation: &Rotation) -> impl Iterator<Item = Rotation> {
         let (k, part) = self.place(rotation.shaft_angle);
         let per_shaft = 1.0 / (self.shaft[k] - self.shaft[k - 1]);

@@ -25,13 +25,14 @@ pub struct DefectSteps {
 /// Vibration around the last passage over a defect: norms of the mass-normalised accelerations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Vibration {
+    /// Whether steps are divided.
     is_divided: bool,
+    /// Largest norm since the passage began.
+    peak: f64,
+    /// Number of steps for which the norm has been low.
+    low: usize,
     /// Number of parts of the last step; 0 before the first one.
     parts: usize,
-    /// Largest one since the passage began.
-    peak: f64,
-    /// Number of steps for which it has been low.
-    low: usize,
 }
 
 impl DefectSteps {
