@@ -13,6 +13,7 @@ mod bearing_solver;
 mod complete_crossings;
 mod double_eigenvalues;
 mod linear;
+mod many_at_once;
 mod modal_damping;
 mod planes;
 mod random_bearing_warnings;

@@ -7,7 +7,7 @@ use super::eigen::{self, EigenError};
 use super::hessenberg;
 use super::refinement::{NEGLIGIBLE, PreciseResidual, refine, relative_size};
 use nalgebra::DMatrix;
-use pulp::Arch;
+use pulp::{Arch, NullaryFnOnce};
 
 /// Fraction of its length that a vector may lose in orthogonalisation before that is repeated (Daniel et al. 1976).
 const MAX_CANCELLATION: f64 = 0.5;
@@ -196,8 +196,26 @@ pub(super) struct Ritz {
 /// Takes the parts along the basis from x and adds them to h (classical Gram-Schmidt); what remains of the length.
 fn project_out(x: &mut [f64], basis: &[Vec<f64>], h: &mut [f64]) -> f64 {
     // Compiled for the widest vectors; sums have one order on every processor.
-    Arch::new().dispatch(|| {
-        let parts: Vec<f64> = basis.iter().map(|b| dot_in_sixteens(b, x)).collect();
+    Arch::new().dispatch(Projection { x, basis, h })
+}
+
+/// In place of a closure, which would not be inlined into the code for each set of vector instructions.
+struct Projection<'a> {
+    x: &'a mut [f64],
+    basis: &'a [Vec<f64>],
+    h: &'a mut [f64],
+}
+
+impl NullaryFnOnce for Projection<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let Self { x, basis, h } = self;
+        let mut parts = Vec::with_capacity(basis.len());
+        for b in basis {
+            parts.push(dot_in_sixteens(b, x));
+        }
         for (b, part) in basis.iter().zip(&parts) {
             for (x, b) in x.iter_mut().zip(b) {
                 *x -= part * b;
@@ -205,7 +223,7 @@ fn project_out(x: &mut [f64], basis: &[Vec<f64>], h: &mut [f64]) -> f64 {
         }
         h.iter_mut().zip(&parts).for_each(|(h, part)| *h += part);
         dot_in_sixteens(x, x).sqrt()
-    })
+    }
 }
 
 fn norm(x: &[f64]) -> f64 {

@@ -5,29 +5,30 @@
 
 use super::sparse::SparseMatrix;
 use nalgebra::ComplexField;
+use pulp::{Arch, NullaryFnOnce};
 
 /// Numbering of the unknowns in blocks, with the corresponding band storage.
 #[derive(Clone, Debug)]
 pub struct BandLayout {
     size: usize,
-    blocks: Vec<Block>,
+    pub(super) blocks: Vec<Block>,
     /// Block of every unknown and its place in the block; `None` outside a restricted layout.
     slots: Vec<Option<(usize, usize)>>,
 }
 
 #[derive(Clone, Debug)]
-struct Block {
+pub(super) struct Block {
     /// Unknowns in elimination order.
-    order: Vec<usize>,
+    pub order: Vec<usize>,
     /// Half bandwidth.
-    half_bandwidth: usize,
+    pub half_bandwidth: usize,
     /// Offset of the block's first value in the storage.
-    start: usize,
+    pub start: usize,
 }
 
 impl Block {
     /// Row length: the band plus the fill-in by row exchanges on the right.
-    fn width(&self) -> usize {
+    pub fn width(&self) -> usize {
         3 * self.half_bandwidth + 1
     }
 }
@@ -110,14 +111,18 @@ impl BandLayout {
         self.blocks.iter().map(|b| b.order.as_slice())
     }
 
+    /// Place of an entry in the band storage; `None` outside a restricted layout.
+    pub(super) fn slot(&self, i: usize, j: usize) -> Option<usize> {
+        let ((b, p), (_, q)) = (self.slots[i]?, self.slots[j]?);
+        let block = &self.blocks[b];
+        Some(block.start + p * block.width() + block.half_bandwidth + q - p)
+    }
+
     /// Band storage of a matrix; add such arrays entry by entry to combine matrices of one layout.
     pub fn scatter(&self, matrix: &SparseMatrix) -> Vec<f64> {
         let mut values = vec![0.0; self.storage()];
         for (i, j, v) in matrix.iter() {
-            if let (Some((b, p)), Some((_, q))) = (self.slots[i], self.slots[j]) {
-                let block = &self.blocks[b];
-                values[block.start + p * block.width() + block.half_bandwidth + q - p] = v;
-            }
+            self.slot(i, j).into_iter().for_each(|at| values[at] = v);
         }
         values
     }
@@ -178,14 +183,20 @@ where
     }
 
     fn factor_all(&mut self) -> Result<(), ZeroPivot> {
+        let arch = Arch::new();
         let (mut pivots, mut multipliers) = (self.pivots.as_mut_slice(), self.multipliers.as_mut_slice());
         for block in &self.layout.blocks {
             let n = block.order.len();
             let values = &mut self.values[block.start..block.start + n * block.width()];
             let (own_pivots, rest) = pivots.split_at_mut(n);
             let (own_multipliers, other) = multipliers.split_at_mut(n * block.half_bandwidth);
-            factor_block(values, own_pivots, own_multipliers, block.half_bandwidth)
-                .map_err(|at| ZeroPivot { unknown: block.order[at] })?;
+            let elimination = Elimination {
+                a: values,
+                pivots: own_pivots,
+                multipliers: own_multipliers,
+                half: block.half_bandwidth,
+            };
+            arch.dispatch(elimination).map_err(|at| ZeroPivot { unknown: block.order[at] })?;
             (pivots, multipliers) = (rest, other);
         }
         Ok(())
@@ -194,7 +205,7 @@ where
     /// Solves A x = b in place.
     pub fn solve(&self, b: &mut [T]) {
         let (mut pivots, mut multipliers) = (self.pivots.as_slice(), self.multipliers.as_slice());
-        let mut x = Vec::new();
+        let (mut x, arch) = (Vec::new(), Arch::new());
         for block in &self.layout.blocks {
             let n = block.order.len();
             let (own_pivots, rest) = pivots.split_at(n);
@@ -203,7 +214,13 @@ where
                 x.clear();
                 x.extend(block.order.iter().map(|&i| b[i]));
                 let values = &self.values[block.start..block.start + n * block.width()];
-                solve_block(values, own_pivots, own_multipliers, block.half_bandwidth, &mut x);
+                let factors = BlockFactors {
+                    a: values,
+                    pivots: own_pivots,
+                    multipliers: own_multipliers,
+                    half: block.half_bandwidth,
+                };
+                arch.dispatch(Substitution { factors, x: &mut x });
                 for (&i, &v) in block.order.iter().zip(&x) {
                     b[i] = v;
                 }
@@ -213,79 +230,114 @@ where
     }
 }
 
-/// Row p contains columns p − half ..= p + 2 half at p·width.
-fn factor_block<T>(a: &mut [T], pivots: &mut [usize], multipliers: &mut [T], half: usize) -> Result<(), usize>
-where
-    T: ComplexField<RealField = f64> + Copy,
-{
-    let (n, w) = (pivots.len(), 3 * half + 1);
-    for j in 0..n {
-        let last = (j + half).min(n - 1);
-        let at = |r: usize| r * w + half + j - r;
-        let mut pivot = j;
-        for r in j + 1..=last {
-            if a[at(r)].norm1() > a[at(pivot)].norm1() {
-                pivot = r;
-            }
-        }
-        pivots[j] = pivot;
-        let value = a[at(pivot)];
-        if value == T::zero() || !value.is_finite() {
-            return Err(j);
-        }
-        let reach = (2 * half).min(n - 1 - j);
-        if pivot != j {
-            let (up, down) = (at(j), at(pivot));
-            for c in 0..=reach {
-                a.swap(up + c, down + c);
-            }
-        }
-        for r in j + 1..=last {
-            let (head, tail) = a.split_at_mut(r * w);
-            let row = &mut tail[half + j - r..];
-            let multiplier = &mut multipliers[j * half + r - j - 1];
-            if row[0] == T::zero() {
-                *multiplier = T::zero();
-                continue;
-            }
-            let factor = row[0] / value;
-            *multiplier = factor;
-            let from = &head[j * w + half + 1..][..reach];
-            for (x, &u) in row[1..=reach].iter_mut().zip(from) {
-                *x -= factor * u;
-            }
-        }
-    }
-    Ok(())
+// Compiled for the widest vectors, with the same rounding on every processor; structs in place of closures, which would not be
+// inlined into that code.
+
+/// Row p of `a` contains columns p − half ..= p + 2 half at p·width.
+struct Elimination<'a, T> {
+    a: &'a mut [T],
+    pivots: &'a mut [usize],
+    multipliers: &'a mut [T],
+    half: usize,
 }
 
-fn solve_block<T>(a: &[T], pivots: &[usize], multipliers: &[T], half: usize, x: &mut [T])
+impl<T> NullaryFnOnce for Elimination<'_, T>
 where
     T: ComplexField<RealField = f64> + Copy,
 {
-    let (n, w) = (pivots.len(), 3 * half + 1);
-    for j in 0..n {
-        x.swap(j, pivots[j]);
-        let xj = x[j];
-        for (x, &factor) in x[j + 1..].iter_mut().zip(&multipliers[j * half..(j + 1) * half]) {
-            *x -= factor * xj;
+    type Output = Result<(), usize>;
+
+    #[inline(always)]
+    fn call(self) -> Result<(), usize> {
+        let Self { a, pivots, multipliers, half } = self;
+        let (n, w) = (pivots.len(), 3 * half + 1);
+        for j in 0..n {
+            let last = (j + half).min(n - 1);
+            let at = |r: usize| r * w + half + j - r;
+            let mut pivot = j;
+            for r in j + 1..=last {
+                if a[at(r)].norm1() > a[at(pivot)].norm1() {
+                    pivot = r;
+                }
+            }
+            pivots[j] = pivot;
+            let value = a[at(pivot)];
+            if value == T::zero() || !value.is_finite() {
+                return Err(j);
+            }
+            let reach = (2 * half).min(n - 1 - j);
+            if pivot != j {
+                let (up, down) = (at(j), at(pivot));
+                for c in 0..=reach {
+                    a.swap(up + c, down + c);
+                }
+            }
+            for r in j + 1..=last {
+                let (head, tail) = a.split_at_mut(r * w);
+                let row = &mut tail[half + j - r..];
+                let multiplier = &mut multipliers[j * half + r - j - 1];
+                if row[0] == T::zero() {
+                    *multiplier = T::zero();
+                    continue;
+                }
+                let factor = row[0] / value;
+                *multiplier = factor;
+                let from = &head[j * w + half + 1..][..reach];
+                for (x, &u) in row[1..=reach].iter_mut().zip(from) {
+                    *x -= factor * u;
+                }
+            }
         }
+        Ok(())
     }
-    for j in (0..n).rev() {
-        let reach = (2 * half).min(n - 1 - j);
-        let row = &a[j * w + half..][..=reach];
-        // Two sums, neither of which waits for the other.
-        let (pairs, rest) = row[1..].as_chunks::<2>();
-        let (known, known_rest) = x[j + 1..=j + reach].as_chunks::<2>();
-        let (mut s, mut other) = (x[j], T::zero());
-        for ([u, v], [y, z]) in pairs.iter().zip(known) {
-            s -= *u * *y;
-            other -= *v * *z;
+}
+
+struct BlockFactors<'a, T> {
+    a: &'a [T],
+    pivots: &'a [usize],
+    multipliers: &'a [T],
+    half: usize,
+}
+
+struct Substitution<'a, T> {
+    factors: BlockFactors<'a, T>,
+    x: &'a mut [T],
+}
+
+impl<T> NullaryFnOnce for Substitution<'_, T>
+where
+    T: ComplexField<RealField = f64> + Copy,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let BlockFactors { a, pivots, multipliers, half } = self.factors;
+        let x = self.x;
+        let (n, w) = (pivots.len(), 3 * half + 1);
+        for j in 0..n {
+            x.swap(j, pivots[j]);
+            let xj = x[j];
+            for (x, &factor) in x[j + 1..].iter_mut().zip(&multipliers[j * half..(j + 1) * half]) {
+                *x -= factor * xj;
+            }
         }
-        for (&u, &y) in rest.iter().zip(known_rest) {
-            s -= u * y;
+        for j in (0..n).rev() {
+            let reach = (2 * half).min(n - 1 - j);
+            let row = &a[j * w + half..][..=reach];
+            // Two sums, neither of which waits for the other.
+            let (pairs, rest) = row[1..].as_chunks::<2>();
+            let (known, known_rest) = x[j + 1..=j + reach].as_chunks::<2>();
+            let (mut s, mut other) = (x[j], T::zero());
+            for ([u, v], [y, z]) in pairs.iter().zip(known) {
+                s -= *u * *y;
+                other -= *v * *z;
+            }
+            for (&u, &y) in rest.iter().zip(known_rest) {
+                s -= u * y;
+            }
+            x[j] = (s + other) / row[0];
         }
-        x[j] = (s + other) / row[0];
     }
 }
 

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`sparse`] | [`Triplets`] for assembly, [`SparseMatrix`] (compressed columns, CSC), [`SparseRow`] |
 //! | [`band_lu`] | reverse Cuthill-McKee ordering, [`BandLayout`] and banded LU ([`BandLu`]), real and complex |
+//! | [`band_lu_lanes`] | the same of several complex matrices at once ([`BandLuLanes`]) |
 //! | [`band_matrix`] | the banded [`BandMatrix`] in natural order |
 //! | [`fft_length`](mod@fft_length) | efficient lengths for fast Fourier transforms |
 //! | [`gmres`](mod@gmres) | preconditioned GMRES |
@@ -25,6 +26,7 @@
 
 mod arnoldi;
 pub mod band_lu;
+pub mod band_lu_lanes;
 pub mod band_matrix;
 mod coupled_group;
 pub mod dense_lu;
@@ -47,6 +49,7 @@ pub mod spline;
 mod stop;
 
 pub use band_lu::{BandLayout, BandLu, ZeroPivot};
+pub use band_lu_lanes::BandLuLanes;
 pub use band_matrix::BandMatrix;
 pub use dense_lu::DenseLu;
 pub use dot::dot;

@@ -243,7 +243,7 @@ impl SparseMatrix {
     }
 
     /// Whether both matrices have entries at the same positions.
-    pub(super) fn same_pattern(&self, other: &SparseMatrix) -> bool {
+    pub fn same_pattern(&self, other: &SparseMatrix) -> bool {
         self.rows == other.rows && self.start == other.start && self.row_index == other.row_index
     }
 

@@ -1,11 +1,12 @@
 //! Frequency response functions at a fixed speed, solved directly.
 
-use super::harmonic::HarmonicSystem;
+use super::harmonic::{HarmonicLanes, HarmonicSolver, HarmonicSystem};
 use crate::assembly::rigid_body_modes::unconstrained_motion;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::model::Quantity;
 use rayon::prelude::*;
-use rotordyn_linalg::{Complex64, SparseRow};
+use rotordyn_linalg::band_lu_lanes::{ComplexLanes, LANES, dot_lanes};
+use rotordyn_linalg::{Complex64, SparseRow, ZeroPivot};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
@@ -24,7 +25,7 @@ pub struct Frf {
 /// p = 0, 1, 2 for receptance, mobility, accelerance.
 ///
 /// Direct solution: one banded complex factorisation per frequency, of the groups of unknowns coupled to the
-/// excitations.
+/// excitations; several frequencies at once where their rows are exchanged alike.
 ///
 /// # Errors
 /// A frequency at which the dynamic stiffness is singular (0 Hz of a rigid-body mode), naming the motion.
@@ -38,35 +39,75 @@ pub fn frf(
 ) -> Result<Frf, PhysicsError> {
     let reached: Vec<usize> = excitations.iter().flat_map(|e| e.0.iter().map(|&(i, _)| i)).collect();
     let harmonic = HarmonicSystem::new(system, Some(&reached));
-    let columns: Vec<Vec<Complex64>> = frequencies
-        .par_iter()
+    let at = Responses { harmonic: &harmonic, excitations, responses, quantity };
+    let singular = |(hz, pivot): (f64, ZeroPivot)| PhysicsError::Singular {
+        motion: format!("at {hz} Hz {}", unconstrained_motion(assembly, system, pivot.unknown)),
+    };
+    // Groups of frequencies do not depend on the number of threads, nor does the result.
+    let columns: Vec<Vec<Vec<Complex64>>> = frequencies
+        .par_chunks(LANES)
         .map_init(
-            || harmonic.solver(),
-            |solver, &hz| {
-                let omega = hz * TAU;
-                solver.factor(omega).map_err(|pivot| PhysicsError::Singular {
-                    motion: format!("at {hz} Hz {}", unconstrained_motion(assembly, system, pivot.unknown)),
-                })?;
-                let scale = derivative_factor(quantity, omega);
-                let mut column = Vec::with_capacity(excitations.len() * responses.len());
-                let mut q = vec![Complex64::default(); harmonic.size()];
-                for excitation in excitations {
-                    q.fill(Complex64::default());
-                    for &(i, v) in &excitation.0 {
-                        q[i] += v;
-                    }
-                    solver.solve(&mut q);
-                    column.extend(responses.iter().map(|r| scale * r.dot_complex(&q)));
-                }
-                Ok(column)
+            || (harmonic.solver(), harmonic.lanes()),
+            |(solver, lanes), hz| match lanes.as_mut().and_then(|lanes| at.several(lanes, hz)) {
+                Some(columns) => Ok(columns),
+                None => hz.iter().map(|&hz| at.one(solver, hz).map_err(|e| singular((hz, e)))).collect(),
             },
         )
         .collect::<Result<_, PhysicsError>>()?;
 
-    let value = |r: usize, e: usize| columns.iter().map(|c| c[e * responses.len() + r]).collect();
+    let value = |r: usize, e: usize| columns.iter().flatten().map(|c| c[e * responses.len() + r]).collect();
     let values =
         (0..responses.len()).map(|r| (0..excitations.len()).map(|e| value(r, e)).collect()).collect();
     Ok(Frf { frequencies: frequencies.to_vec(), quantity, values })
+}
+
+/// The wanted responses at one or several frequencies \[Hz\], those to the first excitation first.
+struct Responses<'a> {
+    harmonic: &'a HarmonicSystem<'a>,
+    excitations: &'a [SparseRow],
+    responses: &'a [SparseRow],
+    quantity: Quantity,
+}
+
+impl Responses<'_> {
+    fn one(&self, solver: &mut HarmonicSolver, hz: f64) -> Result<Vec<Complex64>, ZeroPivot> {
+        let omega = hz * TAU;
+        solver.factor(omega)?;
+        let scale = derivative_factor(self.quantity, omega);
+        let mut column = Vec::with_capacity(self.excitations.len() * self.responses.len());
+        let mut q = vec![Complex64::default(); self.harmonic.size()];
+        for excitation in self.excitations {
+            q.fill(Complex64::default());
+            excitation.0.iter().for_each(|&(i, v)| q[i] += v);
+            solver.solve(&mut q);
+            column.extend(self.responses.iter().map(|r| scale * r.dot_complex(&q)));
+        }
+        Ok(column)
+    }
+
+    /// At two to [`LANES`] frequencies; `None` where they are to be taken one by one.
+    fn several(&self, lanes: &mut HarmonicLanes, hz: &[f64]) -> Option<Vec<Vec<Complex64>>> {
+        let (&last, _) = hz.split_last().filter(|(_, others)| !others.is_empty())?;
+        // At rest a rigid-body mode is singular to the last digit: found with the rounding of one matrix.
+        (!hz.contains(&0.0)).then_some(())?;
+        let omega = std::array::from_fn(|k| hz.get(k).copied().unwrap_or(last) * TAU);
+        lanes.factor(self.harmonic, &omega).then_some(())?;
+        let size = self.excitations.len() * self.responses.len();
+        let mut columns = vec![Vec::with_capacity(size); hz.len()];
+        let mut q = vec![ComplexLanes::default(); self.harmonic.size()];
+        for excitation in self.excitations {
+            q.fill(ComplexLanes::default());
+            excitation.0.iter().for_each(|&(i, v)| q[i].re.iter_mut().for_each(|re| *re += v));
+            lanes.solve(&mut q);
+            for response in self.responses {
+                let h = dot_lanes(response, &q);
+                for (k, column) in columns.iter_mut().enumerate() {
+                    column.push(derivative_factor(self.quantity, omega[k]) * h.lane(k));
+                }
+            }
+        }
+        Some(columns)
+    }
 }
 
 /// (jω)^p of a quantity.

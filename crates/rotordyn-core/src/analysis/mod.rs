@@ -3,6 +3,7 @@
 //! | module | result |
 //! |---|---|
 //! | [`equilibrium`] | static equilibrium on nonlinear bearings, ball loads, tangent stiffness and damping |
+//! | [`equilibrium_path`] | equilibria over speed as a polynomial, to start from at many speeds |
 //! | [`preload`] | axial force of preloaded bearings in the machine; preload stated by that force |
 //! | [`bearing_stiffness`] | load-displacement relation and stiffness matrix of a single bearing |
 //! | [`modal`] | natural frequencies, damping, mode shapes, kinds and labels at one speed |
@@ -32,6 +33,7 @@ pub mod campbell;
 pub mod critical_map;
 pub mod critical_speed;
 pub mod equilibrium;
+pub mod equilibrium_path;
 pub mod frf;
 pub mod harmonic;
 pub mod modal;

@@ -2,13 +2,14 @@
 
 use super::campbell::Tangents;
 use super::frf::derivative_factor;
-use super::harmonic::HarmonicSystem;
+use super::harmonic::{HarmonicLanes, HarmonicSystem};
 use super::mode_kind::whirl_index;
 use crate::assembly::rigid_body_modes::unconstrained_motion;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError, Site};
 use crate::model::Quantity;
 use rayon::prelude::*;
 use rotordyn_bearing::SiteTangent;
+use rotordyn_linalg::band_lu_lanes::{ComplexLanes, LANES};
 use rotordyn_linalg::{Complex64, SparseRow};
 
 /// Complex amplitudes q(t) = Re(Q e^{jΩt}) at one speed.
@@ -68,28 +69,84 @@ pub fn response<T: Send>(
     tangents: &impl Tangents,
     observe: impl Fn(UnbalanceMotion) -> T + Sync,
 ) -> Result<Vec<T>, PhysicsError> {
-    let motion = |&speed: &f64| motion(assembly, speed, &tangents(speed)?).map(&observe);
-    speeds.par_iter().map(motion).collect()
+    // Groups of speeds do not depend on the number of threads, nor does the result.
+    let motions = |memory: &mut Option<HarmonicLanes>, speeds: &[f64]| -> Result<Vec<T>, PhysicsError> {
+        let tangents: Vec<_> = speeds.iter().map(|&speed| tangents(speed)).collect::<Result<_, _>>()?;
+        let systems: Vec<_> = speeds
+            .iter()
+            .zip(&tangents)
+            .map(|(&speed, tangents)| LinearSystem::new(assembly, tangents, speed))
+            .collect::<Result<_, _>>()?;
+        let amplitudes = amplitudes(assembly, &systems, memory)?;
+        let found = amplitudes.into_iter().zip(speeds).zip(&tangents);
+        Ok(found.map(|((q, &speed), tangents)| observe(motion(assembly, speed, tangents, q))).collect())
+    };
+    let found: Vec<Vec<T>> =
+        speeds.par_chunks(LANES).map_init(|| None, motions).collect::<Result<_, PhysicsError>>()?;
+    Ok(found.into_iter().flatten().collect())
 }
 
 fn motion(
     assembly: &Assembly,
     speed: f64,
     tangents: &[SiteTangent],
-) -> Result<UnbalanceMotion, PhysicsError> {
-    let system = LinearSystem::new(assembly, tangents, speed)?;
-    let mut amplitude = assembly.unbalance_amplitude(speed);
-    let reached: Vec<usize> =
-        (0..amplitude.len()).filter(|&i| amplitude[i] != Complex64::default()).collect();
-    let harmonic = HarmonicSystem::new(&system, Some(&reached));
-    let mut solver = harmonic.solver();
-    solver.factor(speed).map_err(|pivot| PhysicsError::Singular {
-        motion: unconstrained_motion(assembly, &system, pivot.unknown),
-    })?;
-    solver.solve(&mut amplitude);
+    amplitude: Vec<Complex64>,
+) -> UnbalanceMotion {
     let sites = assembly.sites.iter().zip(tangents);
     let bearing_forces = sites.map(|(site, t)| bearing_force(site, t, &amplitude, speed)).collect();
-    Ok(UnbalanceMotion { speed, amplitude, bearing_forces })
+    UnbalanceMotion { speed, amplitude, bearing_forces }
+}
+
+/// Amplitudes Q at up to [`LANES`] speeds, all at once where their matrices allow it.
+fn amplitudes(
+    assembly: &Assembly,
+    systems: &[LinearSystem],
+    memory: &mut Option<HarmonicLanes>,
+) -> Result<Vec<Vec<Complex64>>, PhysicsError> {
+    let loads: Vec<Vec<Complex64>> = systems.iter().map(|s| assembly.unbalance_amplitude(s.speed)).collect();
+    let reached = |load: &[Complex64]| -> Vec<usize> {
+        (0..load.len()).filter(|&i| load[i] != Complex64::default()).collect()
+    };
+    if let Some(found) = amplitudes_at_once(systems, &loads, reached, memory) {
+        return Ok(found);
+    }
+    let one = |(system, mut amplitude): (&LinearSystem, Vec<Complex64>)| {
+        let harmonic = HarmonicSystem::new(system, Some(&reached(&amplitude)));
+        let mut solver = harmonic.solver();
+        solver.factor(system.speed).map_err(|pivot| PhysicsError::Singular {
+            motion: unconstrained_motion(assembly, system, pivot.unknown),
+        })?;
+        solver.solve(&mut amplitude);
+        Ok(amplitude)
+    };
+    systems.iter().zip(loads).map(one).collect()
+}
+
+/// The same in one factorisation; `None` where the speeds are to be taken one by one.
+fn amplitudes_at_once(
+    systems: &[LinearSystem],
+    loads: &[Vec<Complex64>],
+    reached: impl Fn(&[Complex64]) -> Vec<usize>,
+    memory: &mut Option<HarmonicLanes>,
+) -> Option<Vec<Vec<Complex64>>> {
+    let (first, others) = loads.split_first()?;
+    let (rows, alone) = (reached(first), others.is_empty());
+    // At standstill nothing is reached.
+    if alone || rows.is_empty() || others.iter().any(|load| reached(load) != rows) {
+        return None;
+    }
+    let mut lanes = HarmonicLanes::of_systems(systems, &rows, memory.take())?;
+    let whole = lanes.factor_synchronous(systems);
+    let found = whole.then(|| {
+        let mut q = vec![ComplexLanes::default(); first.len()];
+        for (lane, load) in loads.iter().enumerate() {
+            q.iter_mut().zip(load).for_each(|(q, &f)| q.set_lane(lane, f));
+        }
+        lanes.solve(&mut q);
+        (0..loads.len()).map(|lane| q.iter().map(|q| q.lane(lane)).collect()).collect()
+    });
+    *memory = Some(lanes);
+    found
 }
 
 /// Force of a bearing on the shaft, F = −(K + jΩ C) d with its relative displacement d.

@@ -8,6 +8,7 @@ use super::speed_cache::SpeedCache;
 use crate::analysis::ball_inertia::{InertiaUse, ball_inertia, is_undecided, with_decisions};
 use crate::analysis::belt_pull::BeltPull;
 use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium, equilibrium_tangents};
+use crate::analysis::equilibrium_path::EquilibriumPath;
 use crate::analysis::preload::{MountedPreload, with_mounted_preload};
 use crate::analysis::table_range::{check_tables, speed_range};
 use crate::analysis::{campbell, critical_speed, modal, stability};
@@ -137,13 +138,44 @@ impl Machine {
             return machine.tangents(speed, speed_dependent);
         }
         if speed_dependent && speed != 0.0 && self.bearings_depend_on_speed() {
-            let (averaged, start) = (CageTreatment::Averaged, Some(&self.standstill_equilibrium.q[..]));
             return self
                 .tangents
-                .at(speed, || equilibrium_tangents(&self.model, &self.assembly, speed, averaged, start));
+                .at(speed, || self.equilibrium_tangents(speed, &self.standstill_equilibrium.q));
         }
         let at_standstill = self.bearings.iter().zip(self.standstill_equilibrium.tangents());
         Ok(at_standstill.map(|(element, tangent)| element.tangent_at(speed, tangent)).collect())
+    }
+
+    /// As [`Self::tangents`] of speed-dependent bearings, for studies of many speeds: `path` from
+    /// [`Self::equilibrium_path`]. They are not cached: the next study may start from elsewhere, and find other last digits.
+    ///
+    /// # Errors
+    /// As [`Self::tangents`].
+    pub(super) fn tangents_on(
+        &self,
+        path: Option<&EquilibriumPath>,
+        speed: f64,
+    ) -> Result<Vec<SiteTangent>, PhysicsError> {
+        match path {
+            Some(_) if self.stop.is_requested() => Err(PhysicsError::Stopped),
+            Some(path) if speed != 0.0 => self.equilibrium_tangents(speed, &path.at(speed)),
+            _ => self.tangents(speed, true),
+        }
+    }
+
+    /// The equilibria at the speeds of a study \[rad/s\]; `None` where they are few or all the same.
+    pub(super) fn equilibrium_path(&self, speeds: &[f64]) -> Option<EquilibriumPath> {
+        let range = speed_range(speeds).filter(|[low, high]| low < high)?;
+        if speeds.len() < EquilibriumPath::LEAST_SPEEDS || !self.bearings_depend_on_speed() {
+            return None;
+        }
+        let (averaged, start) = (CageTreatment::Averaged, &self.standstill_equilibrium.q);
+        // Without an equilibrium somewhere the speeds of the study are solved one by one, and the error names one of them.
+        EquilibriumPath::new(&self.model, &self.assembly, range, averaged, start).ok()
+    }
+
+    fn equilibrium_tangents(&self, speed: f64, start: &[f64]) -> Result<Vec<SiteTangent>, PhysicsError> {
+        equilibrium_tangents(&self.model, &self.assembly, speed, CageTreatment::Averaged, Some(start))
     }
 
     /// Whether the tangents of nonlinear bearings depend on speed: directly, or because a speed-dependent linear

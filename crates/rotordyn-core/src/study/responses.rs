@@ -136,6 +136,8 @@ impl Machine {
         let poles = synchronous_poles(&self.assembly, range, &tangents)?;
         let shaft = ShaftSections::new(&self.model);
         let observe = |motion: UnbalanceMotion| self.observe(motion, &observed, &shaft);
+        let path = self.equilibrium_path(&study.speeds);
+        let tangents = |speed| self.tangents_on(path.as_ref(), speed);
         let evaluate = |speeds: &[f64]| unbalance::response(&self.assembly, speeds, &tangents, observe);
         let RefinedGrid { points: speeds, samples, requested } =
             refined(&study.speeds, &poles, study.refine, evaluate, |sample| sample.observed.clone())?;
