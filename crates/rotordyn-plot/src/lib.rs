@@ -232,6 +232,8 @@ pub fn png(svg: &str) -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync
     let options = usvg::Options {
         fontdb: font::database(),
         font_family: "DejaVu Sans".to_string(),
+        // Maps have the pixels of the PNG.
+        image_rendering: usvg::ImageRendering::OptimizeSpeed,
         ..usvg::Options::default()
     };
     let tree = usvg::Tree::from_str(svg, &options)?;
@@ -246,17 +248,21 @@ pub fn png(svg: &str) -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync
 
 /// A picture without transparency as PNG.
 ///
-/// The least deflation of adaptively filtered rows takes a quarter of the time of the default, for a quarter more bytes.
+/// Flat areas repeat better than their differences: rows without a filter at this level take half the time of filtered rows
+/// and fewer bytes.
 fn opaque_png(picture: &tiny_skia::Pixmap) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_filter(png::Filter::Adaptive);
-    encoder.set_deflate_compression(png::DeflateCompression::Level(1));
-    let colors = picture.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect::<Vec<u8>>();
+    encoder.set_filter(png::Filter::NoFilter);
+    encoder.set_deflate_compression(png::DeflateCompression::Level(2));
+    let mut colors = vec![[0; 3]; picture.pixels().len()];
+    for (color, p) in colors.iter_mut().zip(picture.pixels()) {
+        *color = [p.red(), p.green(), p.blue()];
+    }
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(&colors)?;
+    writer.write_image_data(colors.as_flattened())?;
     writer.finish()?;
     Ok(bytes)
 }
