@@ -4,13 +4,13 @@ use super::axes::{Axes, Frame};
 use super::color_map;
 use super::scale::{Range, Scale, extremes};
 use super::style::*;
-use super::svg::{Svg, Text};
+use super::svg::{PNG_SCALE, Svg, Text};
 use rotordyn_core::series::{Series, SeriesError};
 use std::borrow::Cow;
 use std::convert::Infallible;
 
 /// Image pixels per page px: those of the PNG; with 200 colours a noisy map stays below a megabyte.
-const PIXELS_PER_PX: f64 = super::PNG_SCALE as f64;
+const PIXELS_PER_PX: f64 = PNG_SCALE as f64;
 
 /// Levels on a grid: `level[i * y.len() + j]` at `x[i]`, `y[j]`; any order, any spacing.
 #[derive(Clone, Copy, Debug)]

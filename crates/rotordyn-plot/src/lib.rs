@@ -98,12 +98,10 @@ pub use sheet::Sheet;
 pub use spectrogram::{Spectrogram, SpectrogramPanel};
 pub use stabilisation::{PoleStability, Stabilisation};
 pub use stack::{Stack, StackPanel};
+pub use svg::PNG_SCALE;
 pub use symbols::{JointSymbol, SupportSymbol};
 pub use waterfall::{Waterfall, WaterfallPanel};
 pub use wireframe::{WireShape, Wireframe};
-
-/// Pixels of the PNG per px of the SVG.
-pub const PNG_SCALE: f32 = 2.0;
 
 /// Any figure, with its data.
 #[derive(Clone, Debug)]

@@ -9,6 +9,9 @@ use super::font;
 /// A point on the page \[px\], y downwards.
 pub type Point = [f64; 2];
 
+/// Pixels of the PNG per px of the SVG.
+pub const PNG_SCALE: f32 = 2.0;
+
 /// Largest coordinate written \[px\]; f32 renderers fail beyond it.
 const MAX_COORDINATE: f64 = 1e5;
 /// Longest label written \[characters\].
