@@ -122,7 +122,9 @@ impl BandLayout {
     pub fn scatter(&self, matrix: &SparseMatrix) -> Vec<f64> {
         let mut values = vec![0.0; self.storage()];
         for (i, j, v) in matrix.iter() {
-            self.slot(i, j).into_iter().for_each(|at| values[at] = v);
+            if let Some(at) = self.slot(i, j) {
+                values[at] = v;
+            }
         }
         values
     }

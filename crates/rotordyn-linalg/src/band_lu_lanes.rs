@@ -144,16 +144,19 @@ impl BandLuLanes {
         let mut lanes = 0;
         for (lane, ([mass, damping, stiffness], omega)) in systems.take(LANES).enumerate() {
             for (i, j, s) in stiffness.iter() {
-                self.layout.slot(i, j).into_iter().for_each(|at| self.values[at].re[lane] += s);
+                if let Some(at) = self.layout.slot(i, j) {
+                    self.values[at].re[lane] += s;
+                }
             }
             for (i, j, m) in mass.iter() {
-                self.layout
-                    .slot(i, j)
-                    .into_iter()
-                    .for_each(|at| self.values[at].re[lane] -= omega * omega * m);
+                if let Some(at) = self.layout.slot(i, j) {
+                    self.values[at].re[lane] -= omega * omega * m;
+                }
             }
             for (i, j, d) in damping.iter() {
-                self.layout.slot(i, j).into_iter().for_each(|at| self.values[at].im[lane] += omega * d);
+                if let Some(at) = self.layout.slot(i, j) {
+                    self.values[at].im[lane] += omega * d;
+                }
             }
             lanes = lane + 1;
         }
@@ -379,7 +382,7 @@ mod tests {
     fn solution(matrices: &[SparseMatrix; 3], omega: [f64; LANES]) -> Option<Vec<ComplexLanes>> {
         let layout = Arc::new(BandLayout::new(&matrices.each_ref()));
         let [m, d, s] = matrices.each_ref().map(|a| layout.scatter(a));
-        let mut lu = BandLuLanes::new(layout.clone());
+        let mut lu = BandLuLanes::new(layout);
         lu.set_frequencies([&m, &d, &s], &omega);
         solved(&mut lu)
     }

@@ -197,20 +197,6 @@ pub fn equilibrium_tangents(
     Ok(found.reactions.iter().map(SiteTangent::from).collect())
 }
 
-/// Displacements of the free DOFs in the [`equilibrium`] at a speed \[m, rad\].
-///
-/// # Errors
-/// As [`equilibrium`].
-pub(super) fn equilibrium_displacements(
-    model: &Model,
-    assembly: &Assembly,
-    speed: f64,
-    cage: CageTreatment,
-    start: Option<&[f64]>,
-) -> Result<Vec<f64>, PhysicsError> {
-    Ok(solve(model, assembly, &Sites::new(model, speed, cage), speed, start)?.q)
-}
-
 /// Displacements of an equilibrium, with the bearings' forces and tangents there.
 struct Solution {
     q: Vec<f64>,

@@ -1,6 +1,6 @@
 //! The equilibrium path over speed: where Newton's method starts for each of many speeds.
 
-use super::equilibrium::{CageTreatment, equilibrium_displacements};
+use super::equilibrium::{CageTreatment, equilibrium};
 use crate::assembly::{Assembly, PhysicsError};
 use crate::model::Model;
 use rayon::prelude::*;
@@ -39,8 +39,8 @@ impl EquilibriumPath {
         let speeds: Vec<f64> = (0..=DEGREE)
             .map(|k| 0.5 * (low + high) - 0.5 * (high - low) * (PI * k as f64 / DEGREE as f64).cos())
             .collect();
-        let at = |&speed: &f64| equilibrium_displacements(model, assembly, speed, cage, Some(start));
-        let displacements = speeds.par_iter().map(at).collect::<Result<_, _>>()?;
+        let at = |&speed: &f64| Ok(equilibrium(model, assembly, speed, cage, Some(start))?.q);
+        let displacements = speeds.par_iter().map(at).collect::<Result<_, PhysicsError>>()?;
         Ok(Self { speeds, displacements })
     }
 

@@ -104,10 +104,7 @@ fn amplitudes(
     memory: &mut Option<HarmonicLanes>,
 ) -> Result<Vec<Vec<Complex64>>, PhysicsError> {
     let loads: Vec<Vec<Complex64>> = systems.iter().map(|s| assembly.unbalance_amplitude(s.speed)).collect();
-    let reached = |load: &[Complex64]| -> Vec<usize> {
-        (0..load.len()).filter(|&i| load[i] != Complex64::default()).collect()
-    };
-    if let Some(found) = amplitudes_at_once(systems, &loads, reached, memory) {
+    if let Some(found) = amplitudes_at_once(systems, &loads, memory) {
         return Ok(found);
     }
     let one = |(system, mut amplitude): (&LinearSystem, Vec<Complex64>)| {
@@ -126,7 +123,6 @@ fn amplitudes(
 fn amplitudes_at_once(
     systems: &[LinearSystem],
     loads: &[Vec<Complex64>],
-    reached: impl Fn(&[Complex64]) -> Vec<usize>,
     memory: &mut Option<HarmonicLanes>,
 ) -> Option<Vec<Vec<Complex64>>> {
     let (first, others) = loads.split_first()?;
@@ -147,6 +143,11 @@ fn amplitudes_at_once(
     });
     *memory = Some(lanes);
     found
+}
+
+/// Unknowns that a load acts on.
+fn reached(load: &[Complex64]) -> Vec<usize> {
+    (0..load.len()).filter(|&i| load[i] != Complex64::default()).collect()
 }
 
 /// Force of a bearing on the shaft, F = −(K + jΩ C) d with its relative displacement d.
