@@ -13,6 +13,7 @@
 mod bearing_contact;
 pub mod contact;
 pub mod geometry;
+mod lanes;
 pub mod material;
 mod reaction;
 mod root_finding;

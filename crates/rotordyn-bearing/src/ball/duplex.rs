@@ -32,15 +32,14 @@ pub(super) fn displacement_at_offset(place: f64, d: &[f64; 6]) -> [f64; 6] {
     out
 }
 
-/// Reaction of a row at h transformed to the station: Tᵀ f, Tᵀ K T, Tᵀ C T with T of [`displacement_at_offset`].
-pub(super) fn transform_to_station(place: f64, row: &Reaction) -> Reaction {
-    let mut out = *row;
+/// Transforms the reaction of a row at h to the station: Tᵀ f, Tᵀ K T, Tᵀ C T with T of [`displacement_at_offset`].
+pub(super) fn transform_to_station(place: f64, row: &mut Reaction) {
     if place == 0.0 {
-        return out;
+        return;
     }
-    out.force[4] += place * row.force[0];
-    out.force[3] -= place * row.force[1];
-    for matrix in [&mut out.stiffness, &mut out.damping] {
+    row.force[4] += place * row.force[0];
+    row.force[3] -= place * row.force[1];
+    for matrix in [&mut row.stiffness, &mut row.damping] {
         for row in matrix.iter_mut() {
             row[4] += place * row[0];
             row[3] -= place * row[1];
@@ -52,5 +51,4 @@ pub(super) fn transform_to_station(place: f64, row: &Reaction) -> Reaction {
             }
         }
     }
-    out
 }

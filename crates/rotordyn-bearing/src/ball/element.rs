@@ -5,10 +5,11 @@
 
 use super::cage::{CageKinematics, MeanCos};
 use super::duplex::{displacement_at_offset, transform_to_station};
-use super::force_kernel::RowForce;
 pub use super::load::BallLoad;
+use super::preload::RowReaction;
 use super::ring_motion::RingMotion;
 use super::row::Row;
+use super::row_kernel::RowForce;
 use crate::contact::HertzPair;
 use crate::{BallBearing, PreloadState, Profile, Reaction, Rotation};
 
@@ -139,23 +140,22 @@ impl BallElement {
     }
 
     pub(super) fn reaction_with(&self, ring: &RingMotion) -> Reaction {
-        let (mut load, mut load_cos) = (0.0, 0.0);
-        let mut row_reaction = |place: f64, row: &Row| {
-            let (d, v) = (displacement_at_offset(place, ring.d), displacement_at_offset(place, ring.v));
-            let out = row.row_reaction(&RingMotion { d: &d, v: &v, ..*ring });
-            load += out.load;
-            load_cos += out.load_cos;
-            transform_to_station(place, &out.reaction)
+        let at_station = |(place, row): &(f64, Row)| {
+            let [d, v] = [ring.d, ring.v].map(|motion| displacement_at_offset(*place, motion));
+            let mut out = row.row_reaction(&RingMotion { d: &d, v: &v, ..*ring });
+            transform_to_station(*place, &mut out.reaction);
+            out
         };
-        let mut out = Reaction::default();
-        match self.rows.as_slice() {
-            [(place, row)] => out = row_reaction(*place, row),
-            rows => {
-                for (place, row) in rows {
-                    out.add(&row_reaction(*place, row), 1.0);
-                }
-            }
-        }
+        let RowReaction { reaction: mut out, load, load_cos } = match self.rows.as_slice() {
+            [row] => at_station(row),
+            rows => rows.iter().fold(RowReaction::default(), |mut sum, row| {
+                let RowReaction { reaction, load, load_cos } = at_station(row);
+                sum.reaction.add(&reaction, 1.0);
+                sum.load += load;
+                sum.load_cos += load_cos;
+                sum
+            }),
+        };
         let centrifugal = self.rows.iter().map(|(_, row)| row.centrifugal_sum(ring.orbit)).sum();
         out.mean_cos = MeanCos::new(load, load_cos, centrifugal, self.cage.nominal_cos).value;
         out

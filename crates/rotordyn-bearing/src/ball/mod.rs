@@ -7,7 +7,7 @@
 //! | `ring_motion`, `plane_motion` | motion of the inner ring, and of a ball's groove centres in its plane |
 //! | `massless`; `equilibrium`, `derivatives`, `inertial_ball` | force of a ball: massless, or with inertia |
 //! | `defect_force` | published force law of local defects |
-//! | `sum`, `row` | sum over the balls of a row; `force_kernel`: the same without tangents |
+//! | `sum`, `row` | sum over the balls of a row; `row_kernel`: the same in SIMD, for the simplest kind of row |
 //! | `preload_mechanism`, `preload`; `ring_equilibrium`, `spring_preload` | preload: rigid, or by a spring |
 //! | `duplex` | two rows |
 //! | `element` | the bearing; `change`, `cage_equilibrium`: its statics with ball inertia |
@@ -23,7 +23,6 @@ mod duplex;
 mod element;
 mod equilibrium;
 pub mod fit;
-mod force_kernel;
 pub mod inertia;
 mod inertial_ball;
 mod input;
@@ -37,6 +36,7 @@ mod preload_mechanism;
 mod ring_equilibrium;
 mod ring_motion;
 mod row;
+mod row_kernel;
 mod spaced;
 mod spring_preload;
 mod sum;

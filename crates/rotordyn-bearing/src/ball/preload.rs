@@ -20,7 +20,7 @@ impl Row {
         if let PreloadMechanism::Spring { stiffness, force, .. } = self.preload_mechanism {
             return self.spring_reaction(ring, stiffness, force);
         }
-        let sum = self.sum(ring, &self.operating(ring));
+        let sum = self.sum_at(ring);
         let reaction = sum.reaction(self.arm, ring.cage_speed.unwrap_or(0.0));
         RowReaction { reaction, load: sum.load, load_cos: sum.load_cos }
     }

@@ -2,14 +2,14 @@
 
 use super::cage::CageKinematics;
 use super::equilibrium::{BallContactLaws, BallEquilibrium, BallInertiaData, BallInertiaLoads};
-use super::force_kernel::{ForceKernel, KernelParameters, RowForce};
 use super::plane_motion::PlaneMotion;
 use super::preload_mechanism::PreloadMechanism;
 use super::ring_motion::RingMotion;
+use super::row_kernel::{KernelParameters, RowForce, RowKernel};
 use super::sum::{BallSum, PlaneForce, PlaneMoment};
 use super::{defect_force, massless};
 use crate::contact::{BallContacts, ContactDamping, HertzPair, Race, SpeedContacts};
-use crate::{BallBearing, BallLoad, Profile, ProfileState, Rotation};
+use crate::{BallBearing, BallLoad, Profile, Rotation};
 
 /// A row of balls prepared for evaluation: constants and per-ball data laid out as arrays.
 #[derive(Clone, Debug)]
@@ -37,8 +37,8 @@ pub(super) struct Row {
     spacing: Vec<[f64; 2]>,
     /// Deviations of races and balls; `None` when they are perfect.
     pub profile: Option<Box<Profile>>,
-    /// SIMD force-only kernel of the row, if applicable.
-    pub force_kernel: Option<ForceKernel>,
+    /// The same in SIMD, for the simplest kind of row.
+    kernel: Option<RowKernel>,
 }
 
 /// Operating conditions common to all balls of a row during one evaluation.
@@ -80,7 +80,7 @@ impl Row {
             direction: if thrust_direction < 0.0 { -1.0 } else { 1.0 },
             preload_mechanism: PreloadMechanism::Fixed(0.0),
             entrainment: 0.25 * g.pitch_diameter * (1.0 - gamma * gamma),
-            force_kernel: None,
+            kernel: None,
             spacing,
             profile: None,
         };
@@ -89,17 +89,18 @@ impl Row {
         row.profile = Profile::new(g, imperfections, number, start, pair.stiffness).map(Box::new);
         row.preload_mechanism =
             PreloadMechanism::new(&bearing.preload, |offset| row.dry_axial(&pair, offset));
-        row.force_kernel = row.kernel();
+        row.kernel = row.new_kernel();
         row
     }
 
-    /// The force-only kernel; `None` unless every ball is a dry Hertzian spring with constant damping and rigid preload.
-    fn kernel(&self) -> Option<ForceKernel> {
+    /// The SIMD kernel; `None` unless every ball is a dry Hertzian spring with constant damping and rigid preload.
+    fn new_kernel(&self) -> Option<RowKernel> {
         let ContactDamping::Constant { coefficient, ramp } = self.damping else { return None };
         let SpeedContacts::Hertz(pair) = self.contacts.at_speed(1.0) else { return None };
         if !matches!(self.preload_mechanism, PreloadMechanism::Fixed(_))
             || self.inertia.is_some()
             || self.has_ring_growth()
+            || ramp <= 0.0
         {
             return None;
         }
@@ -110,12 +111,27 @@ impl Row {
             stiffness: pair.stiffness,
             damping: [coefficient, ramp],
         };
-        ForceKernel::new(parameters, &self.spacing)
+        RowKernel::new(parameters, &self.spacing)
     }
 
-    /// The force without tangents; `None` if the row has no [`ForceKernel`] or its defects act by the force law.
+    /// The kernel for a motion, and the surface profile there; `None` where defects act by the force law.
+    fn kernel_at(&self, ring: &RingMotion) -> Option<(&RowKernel, Option<&Profile>)> {
+        let kernel = self.kernel.as_ref().filter(|_| self.force_law(ring).is_none())?;
+        Some((kernel, self.profile_at(ring)))
+    }
+
+    /// The force without tangents; `None` if the row has no [`RowKernel`] or its defects act by the force law.
     pub fn force(&self, ring: &RingMotion) -> Option<RowForce> {
-        self.force_kernel.as_ref()?.force(ring, self.profile.as_deref())
+        let (kernel, profile) = self.kernel_at(ring)?;
+        Some(kernel.force(ring, profile))
+    }
+
+    /// Sum over all balls at a motion of the inner ring, while the contacts move in SIMD where the row has a [`RowKernel`].
+    pub fn sum_at(&self, ring: &RingMotion) -> BallSum {
+        match self.kernel_at(ring) {
+            Some((kernel, profile)) if ring.cage_speed.is_some() => kernel.sum(ring, profile),
+            _ => self.sum(ring, &self.operating(ring)),
+        }
     }
 
     /// Axial force and stiffness of the dry centred row with massless balls, in the direction of thrust.
@@ -225,7 +241,7 @@ impl Row {
 
     /// `Some` if defects act by the force law: whether on loaded balls only.
     fn force_law(&self, ring: &RingMotion) -> Option<bool> {
-        self.profile.as_deref().filter(|_| ring.with_defects)?.force_law()
+        self.profile_at(ring)?.force_law()
     }
 
     #[inline(always)]
@@ -340,7 +356,8 @@ impl Row {
         let RingMotion { d, v, rotation, .. } = *ring;
         let (r, cage_speed) = (self.arm, ring.cage_speed.unwrap_or(0.0));
         let (cage_sin, cage_cos) = rotation.cage_angle.sin_cos();
-        let passing = self.profile_state(ring);
+        // Zero rates in statics.
+        let passing = self.profile_at(ring).map(|profile| profile.at_rotation(&ring.passing()));
         for (j, [cj, sj]) in self.spacing.iter().enumerate() {
             let cos = cage_cos * cj - cage_sin * sj;
             let sin = cage_sin * cj + cage_cos * sj;
@@ -360,10 +377,9 @@ impl Row {
         }
     }
 
-    /// Surface profile at the current angles; zero rates in statics.
-    fn profile_state(&self, ring: &RingMotion) -> Option<ProfileState<'_>> {
-        let profile = self.profile.as_deref().filter(|_| ring.with_defects)?;
-        Some(profile.at_rotation(&ring.passing()))
+    /// Surface profile, unless the motion leaves it out.
+    fn profile_at(&self, ring: &RingMotion) -> Option<&Profile> {
+        self.profile.as_deref().filter(|_| ring.with_defects)
     }
 
     /// Load of every ball under elastic forces alone; `row`: row number in a matched pair.

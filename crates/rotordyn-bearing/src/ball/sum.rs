@@ -40,7 +40,8 @@ pub(super) struct PlaneMoment {
 }
 
 /// Sums over balls of a quantity times 1, cos, sin, cos², cos sin, sin².
-type Harmonics = [f64; 6];
+pub(super) type Harmonics = [f64; HARMONICS];
+pub(super) const HARMONICS: usize = 6;
 
 const ONE: usize = 0;
 const COS: usize = 1;
@@ -55,14 +56,14 @@ const ROWS_BY_ANGLE: [(usize, usize); 5] = [(0, SIN), (0, COS), (1, ONE), (1, CO
 /// Running sums over a row's balls.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct BallSum {
-    force: [Harmonics; 2],
-    by_motion: [Harmonics; 4],
-    by_rate: [Harmonics; 3],
-    moment: Harmonics,
-    moment_by_motion: [Harmonics; 2],
-    energy: f64,
-    dissipated: f64,
-    power: f64,
+    pub force: [Harmonics; 2],
+    pub by_motion: [Harmonics; 4],
+    pub by_rate: [Harmonics; 3],
+    pub moment: Harmonics,
+    pub moment_by_motion: [Harmonics; 2],
+    pub energy: f64,
+    pub dissipated: f64,
+    pub power: f64,
     pub load: f64,
     pub load_cos: f64,
 }

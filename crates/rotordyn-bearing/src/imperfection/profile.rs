@@ -10,7 +10,9 @@
 use super::input::{BallSpin, Defect, DefectForm, DefectLaw, Imperfections, Surface};
 use super::raceway::{Feature, Path, Raceway};
 use super::spall::SpallPath;
+use crate::lanes::Lanes;
 use crate::{BallGeometry, Rotation};
+use pulp::Simd;
 use std::f64::consts::{PI, TAU};
 
 /// Surface deviations of the races and balls of a row, prepared for evaluation.
@@ -247,13 +249,13 @@ impl Profile {
 }
 
 impl ProfileState<'_> {
-    /// Calls `visit` with every ball that may have a deviation, possibly more than once: with local defects
-    /// on the races alone, only the balls at a defect.
+    /// Calls `visit` with every ball that may have a deviation apart from waves of the races, possibly more than once: with
+    /// local defects on the races alone, only the balls at a defect.
     #[inline]
     pub fn each_deviating(&self, mut visit: impl FnMut(usize)) {
         let profile = self.profile;
         let balls = profile.ball_positions.len();
-        if !profile.balls.is_empty() || profile.inner.has_waves() || profile.outer.has_waves() {
+        if !profile.balls.is_empty() {
             (0..balls).for_each(visit);
             return;
         }
@@ -266,27 +268,57 @@ impl ProfileState<'_> {
     /// Deviation at the contacts of ball j, positive where it narrows the gap.
     #[inline]
     pub fn ball(&self, j: usize) -> Deviation {
+        let mut out = self.without_race_waves(j);
+        for (contact, (race, turn)) in self.races().into_iter().enumerate() {
+            add_waves(&mut out, contact, race, &turn.advanced_by(self.profile.ball_positions[j]));
+        }
+        out
+    }
+
+    /// The same without the waves of the races.
+    #[inline]
+    pub fn without_race_waves(&self, j: usize) -> Deviation {
         const HALF_TURN: [f64; 3] = [PI, -1.0, 0.0];
         let profile = self.profile;
         let mut out = Deviation::default();
-        let place = profile.ball_positions[j];
-        self.add(&mut out, 0, &profile.inner, &self.inner.advanced_by(place));
-        self.add(&mut out, 1, &profile.outer, &self.outer.advanced_by(place));
+        for (contact, (race, turn)) in self.races().into_iter().enumerate() {
+            self.add_defects(&mut out, contact, race, &turn.advanced_by(profile.ball_positions[j]));
+        }
         if let Some(ball) = profile.balls.get(j) {
-            self.add(&mut out, 0, &ball.surface[0], &self.ball.advanced_by(HALF_TURN));
-            self.add(&mut out, 1, &ball.surface[1], &self.ball);
+            let turns = [self.ball.advanced_by(HALF_TURN), self.ball];
+            for (contact, (surface, turn)) in ball.surface.iter().zip(&turns).enumerate() {
+                add_waves(&mut out, contact, surface, turn);
+                self.add_defects(&mut out, contact, surface, turn);
+            }
             out.height.iter_mut().for_each(|height| *height += ball.oversize);
         }
         out
     }
 
-    #[inline]
-    fn add(&self, out: &mut Deviation, contact: usize, surface: &Raceway, turn: &SurfaceAngle) {
-        if surface.has_waves() {
-            let [height, slope] = surface.waves(turn.cos, turn.sin);
-            out.height[contact] += height;
-            out.rate[contact] += slope * turn.rate;
+    /// What the waves of both races make of height and rate, at balls with these cosines and sines of 2πj/Z.
+    #[inline(always)]
+    pub(crate) fn race_waves<S: Simd>(&self, simd: S, [ball_cos, ball_sin]: [Lanes<S>; 2]) -> [Lanes<S>; 2] {
+        let [mut height, mut rate] = [Lanes::splat(simd, 0.0); 2];
+        for (race, turn) in self.races() {
+            if race.has_waves() {
+                let cos = ball_cos * turn.cos - ball_sin * turn.sin;
+                let sin = ball_cos * turn.sin + ball_sin * turn.cos;
+                let [value, slope] = race.waves_in_lanes(simd, cos, sin);
+                height += value;
+                rate += slope * turn.rate;
+            }
         }
+        [height, rate]
+    }
+
+    /// Inner and outer race with the angle of ball 0 on them.
+    #[inline(always)]
+    fn races(&self) -> [(&Raceway, &SurfaceAngle); 2] {
+        [(&self.profile.inner, &self.inner), (&self.profile.outer, &self.outer)]
+    }
+
+    #[inline]
+    fn add_defects(&self, out: &mut Deviation, contact: usize, surface: &Raceway, turn: &SurfaceAngle) {
         if !surface.has_defects() {
             return;
         }
@@ -299,6 +331,15 @@ impl ProfileState<'_> {
                 rate[contact] += slope * turn.rate;
             }
         }
+    }
+}
+
+#[inline]
+fn add_waves(out: &mut Deviation, contact: usize, surface: &Raceway, turn: &SurfaceAngle) {
+    if surface.has_waves() {
+        let [height, slope] = surface.waves(turn.cos, turn.sin);
+        out.height[contact] += height;
+        out.rate[contact] += slope * turn.rate;
     }
 }
 

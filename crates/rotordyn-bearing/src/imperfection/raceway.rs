@@ -2,6 +2,8 @@
 
 use super::input::{Shape, Wave};
 use super::spall::SpallPath;
+use crate::lanes::Lanes;
+use pulp::Simd;
 use std::f64::consts::{PI, TAU};
 
 /// Deviations of one surface over its own angle: waviness and defects.
@@ -61,6 +63,12 @@ impl Raceway {
     #[inline]
     pub fn waves(&self, cos: f64, sin: f64) -> [f64; 2] {
         self.waves.at(cos, sin)
+    }
+
+    /// The same at several angles at once.
+    #[inline(always)]
+    pub fn waves_in_lanes<S: Simd>(&self, simd: S, cos: Lanes<S>, sin: Lanes<S>) -> [Lanes<S>; 2] {
+        self.waves.in_lanes(simd, cos, sin)
     }
 
     /// Deviation by defects and its derivative by the angle, at an angle in [0, 2π); overlapping defects add
@@ -196,6 +204,18 @@ impl Waves {
         for (n, [re, im]) in self.coefficients.iter().enumerate() {
             value += re * c - im * s;
             slope -= n as f64 * (re * s + im * c);
+            (c, s) = (c * cos - s * sin, s * cos + c * sin);
+        }
+        [value, slope]
+    }
+
+    #[inline(always)]
+    fn in_lanes<S: Simd>(&self, simd: S, cos: Lanes<S>, sin: Lanes<S>) -> [Lanes<S>; 2] {
+        let (mut c, mut s) = (Lanes::splat(simd, 1.0), Lanes::splat(simd, 0.0));
+        let (mut value, mut slope) = (s, s);
+        for (n, [re, im]) in self.coefficients.iter().enumerate() {
+            value += c * *re - s * *im;
+            slope += (s * *re + c * *im) * -(n as f64);
             (c, s) = (c * cos - s * sin, s * cos + c * sin);
         }
         [value, slope]
