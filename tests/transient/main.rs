@@ -11,6 +11,7 @@ mod free_balls;
 mod high_speed;
 mod impact;
 mod imperfections;
+mod interface_forces;
 mod measured_run_up;
 mod radial_balls;
 mod resume;

@@ -11,7 +11,7 @@ use serde::de::DeserializeOwned;
 use std::path::Path;
 
 /// First line of the file.
-const FORMAT: &[u8] = b"rotordyn-checkpoint-1\n";
+const FORMAT: &[u8] = b"rotordyn-checkpoint-2\n";
 const LENGTH_BYTES: usize = size_of::<u64>();
 const SUM_BYTES: usize = size_of::<u32>();
 

@@ -10,6 +10,7 @@ mod driven_buffers;
 mod driven_step;
 mod force_history;
 mod interface_newton;
+mod kept_jacobian;
 mod memory;
 mod scheme;
 mod step_matrix;

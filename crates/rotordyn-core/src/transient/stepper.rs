@@ -53,7 +53,7 @@ pub struct StepperMemory {
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 enum MethodMemory {
-    Implicit(StepMemory),
+    Implicit(Box<StepMemory>),
     Explicit {
         reactions: Vec<Reaction>,
         evaluations: u64,
@@ -107,7 +107,7 @@ impl Stepper {
             step,
         };
         let method = match &self.method {
-            Method::Implicit(method) => MethodMemory::Implicit(method.memory()),
+            Method::Implicit(method) => MethodMemory::Implicit(Box::new(method.memory())),
             Method::Fixed(method) => explicit(method, None),
             Method::Adaptive { method, step, .. } => explicit(method, Some(*step)),
         };

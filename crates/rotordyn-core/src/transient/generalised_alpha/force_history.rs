@@ -2,22 +2,24 @@
 
 use serde::{Deserialize, Serialize};
 
+/// States before the present one that are kept: the degree of the polynomial through all of them.
+const DEGREE: usize = 4;
 /// Longest step to which forces are extrapolated, over the last step.
 const LARGEST_GROWTH: f64 = 16.0;
 
-/// Forces at the starts of the last two steps.
+/// Forces at the starts of the last steps, the last one first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct ForceHistory {
-    /// At the start of the last step and of the one before.
-    forces: [Vec<f64>; 2],
+    forces: [Vec<f64>; DEGREE],
     /// Lengths of these steps \[s\], and how many of them there are.
-    steps: [f64; 2],
+    steps: [f64; DEGREE],
     count: usize,
 }
 
 impl ForceHistory {
     pub fn new(places: usize) -> Self {
-        Self { forces: [vec![0.0; places], vec![0.0; places]], steps: [0.0; 2], count: 0 }
+        let forces = std::array::from_fn(|_| vec![0.0; places]);
+        Self { forces, steps: [0.0; DEGREE], count: 0 }
     }
 
     /// Number of forces.
@@ -25,36 +27,46 @@ impl ForceHistory {
         self.forces[0].len()
     }
 
-    /// Force at the end of a step from `now` at its start: the parabola through the last three states, after one step the
-    /// straight line, before any the last force.
+    /// Force at the end of a step from `now` at its start: the polynomial through the last five states or as many as there are.
     pub fn extrapolate(&self, now: &[f64], step: f64, out: &mut [f64]) {
-        let [last, before] = &self.forces;
-        let weights = self.weights(step);
-        for (out, ((now, last), before)) in out.iter_mut().zip(now.iter().zip(last).zip(before)) {
-            *out = now + weights[0] * (now - last) + weights[1] * (last - before);
+        let (of_now, before) = self.weights(step);
+        for (out, now) in out.iter_mut().zip(now) {
+            *out = of_now * now;
         }
-    }
-
-    /// Weights of the change in the last step and of that in the one before.
-    fn weights(&self, step: f64) -> [f64; 2] {
-        let [last, before] = self.steps;
-        match self.count {
-            0 => [0.0; 2],
-            _ if step > LARGEST_GROWTH * last => [0.0; 2],
-            1 => [step / last, 0.0],
-            // Newton's form: slopes of the two steps, and what they differ by.
-            _ => {
-                let bend = step * (step + last) / (last + before);
-                [(step + bend) / last, -bend / before]
+        for (weight, forces) in before.iter().zip(&self.forces) {
+            for (out, force) in out.iter_mut().zip(forces) {
+                *out += weight * force;
             }
         }
     }
 
+    /// Lagrange's weights of the present state and of those before.
+    fn weights(&self, step: f64) -> (f64, [f64; DEGREE]) {
+        let count = if step > LARGEST_GROWTH * self.steps[0] { 0 } else { self.count };
+        // How long ago the states were.
+        let mut ages = [0.0; DEGREE];
+        let mut age = 0.0;
+        for (of, length) in ages.iter_mut().zip(self.steps).take(count) {
+            age += length;
+            *of = age;
+        }
+        let ages = &ages[..count];
+        let of_now = ages.iter().map(|age| (step + age) / age).product();
+        let mut before = [0.0; DEGREE];
+        for (k, own) in ages.iter().enumerate() {
+            let others = ages.iter().enumerate().filter(|(j, _)| *j != k);
+            let product: f64 = others.map(|(_, age)| (step + age) / (age - own)).product();
+            before[k] = -step / own * product;
+        }
+        (of_now, before)
+    }
+
     /// Notes the force at the start of a step that was taken.
     pub fn push(&mut self, start: &[f64], step: f64) {
-        self.count = (self.count + 1).min(2);
-        self.steps = [step, self.steps[0]];
-        self.forces.swap(0, 1);
+        self.count = (self.count + 1).min(DEGREE);
+        self.steps.rotate_right(1);
+        self.steps[0] = step;
+        self.forces.rotate_right(1);
         self.forces[0].copy_from_slice(start);
     }
 }
@@ -64,14 +76,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parabolas_are_extrapolated_over_steps_of_any_length() {
-        let force = |t: f64| 2.0 - 3.0 * t + 0.7 * t * t;
+    fn polynomials_are_extrapolated_over_steps_of_any_length() {
+        let force = |t: f64| 2.0 - 3.0 * t + 0.7 * t * t - 0.2 * t * t * t + 0.03 * t.powi(4);
         let mut history = ForceHistory::new(1);
         let (mut time, mut out) = (0.0, [0.0]);
-        for (k, step) in [1.0, 1.0, 0.25, 0.25, 1.5, 3.0].into_iter().enumerate() {
+        for (k, step) in [1.0, 1.0, 0.25, 0.25, 1.5, 3.0, 0.5].into_iter().enumerate() {
             history.extrapolate(&[force(time)], step, &mut out);
-            if k >= 2 {
-                assert!((out[0] - force(time + step)).abs() < 1e-13, "{k}");
+            if k == 1 {
+                assert!((out[0] - (force(1.0) + force(1.0) - force(0.0))).abs() < 1e-13);
+            }
+            if k >= DEGREE {
+                assert!((out[0] - force(time + step)).abs() < 1e-11, "{k}");
             }
             history.push(&[force(time)], step);
             time += step;

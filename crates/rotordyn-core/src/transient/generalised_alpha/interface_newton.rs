@@ -4,18 +4,22 @@ use nalgebra::DVector;
 use std::ops::Range;
 
 use super::StepFailure;
+use super::kept_jacobian::{Kept, KeptJacobian};
+use super::step_matrix::Compliance;
 use crate::transient::interface::{Interface, StepTangents};
 use crate::transient::system::{Bodies, State, System};
 use rotordyn_bearing::internal::NewmarkGain;
 use rotordyn_bearing::{Reaction, Rotation};
 use rotordyn_linalg::dot;
-use rotordyn_linalg::small_dense::PaddedMatrix;
 
 /// Newton stops once the error of the accelerations is below this \[m/s²\] with contact deflections of the given size
 /// \[m\] or more: a change c of the displacements leaves an error of c²/(4 δ) with Hertz contacts, of c²/(4 δ b) in the
 /// acceleration. In 125 us that is a change of 1.2e-10 m. The next change with the same Jacobian leaves c³/(8 δ² b).
 const ACCELERATION_ERROR: f64 = 1e-5;
 const DEFLECTION: f64 = 1e-7;
+/// The same of an old Jacobian, which leaves a part of the change itself: that error is measured, the one above is a bound
+/// which contacts under load keep far below.
+const OLD_JACOBIAN_ERROR: f64 = 1e-6;
 const MAX_ITERATIONS: usize = 25;
 
 /// The interface problem d = d̄ + b u, ḋ = ḋ̄ + c u, u = Y f(d, ḋ) with Y = W S⁻¹ Wᵀ and the step's gains b and c, and
@@ -27,12 +31,11 @@ pub(super) struct InterfaceNewton {
     free_d: Vec<f64>,
     free_d_rate: Vec<f64>,
     free_acceleration: Vec<f64>,
-    /// Acceleration u of the rows by the bearing forces, and the residual u − Y f, then the correction.
+    /// Acceleration u of the rows by the bearing forces, the residual u − Y f, and the correction.
     acceleration: Vec<f64>,
+    residual: Vec<f64>,
     correction: Vec<f64>,
-    /// b K + c C, block by block, and the factors of the Jacobian.
-    tangent: PaddedMatrix,
-    jacobian: PaddedMatrix,
+    jacobian: KeptJacobian,
     /// Rows of every interface.
     blocks: Vec<Range<usize>>,
     d: Vec<f64>,
@@ -54,9 +57,9 @@ impl InterfaceNewton {
             free_d_rate: vec![0.0; places],
             free_acceleration: vec![0.0; places],
             acceleration: vec![0.0; rows],
+            residual: vec![0.0; rows],
             correction: vec![0.0; rows],
-            tangent: PaddedMatrix::new(rows),
-            jacobian: PaddedMatrix::new(rows),
+            jacobian: KeptJacobian::new(rows),
             blocks: system.interfaces.iter().map(Interface::row_range).collect(),
             d: vec![0.0; places],
             d_rate: vec![0.0; places],
@@ -78,7 +81,21 @@ impl InterfaceNewton {
         }
     }
 
-    /// Solves for the bearing forces from the guess in `force`; `compliance`: Y, row-major.
+    /// What the next step takes from the Jacobian of this one.
+    pub fn memory(&self) -> Kept {
+        self.jacobian.memory()
+    }
+
+    /// Takes what earlier steps left.
+    pub fn restore(&mut self, jacobian: &Kept, iterations: u64) {
+        self.jacobian = KeptJacobian::after(jacobian, self.acceleration.len(), &self.blocks);
+        self.iterations = iterations;
+    }
+
+    /// Solves for the bearing forces from the guess in `force`; `compliance`: Y.
+    ///
+    /// Starts with the Jacobian of an earlier step: the tangents of a step are mostly those of the last one, and forces alone
+    /// cost less.
     ///
     /// # Errors
     /// No convergence within the largest number of iterations, a singular Jacobian, or NaN.
@@ -87,16 +104,14 @@ impl InterfaceNewton {
         system: &System,
         rotations: &[Rotation],
         gain: &NewmarkGain,
-        compliance: &[f64],
+        compliance: &Compliance,
     ) -> Result<(), StepFailure> {
-        for (u, y) in self.acceleration.iter_mut().zip(compliance.chunks_exact(system.rows())) {
-            *u = y.iter().zip(&self.force).map(|(y, f)| y * f).sum::<f64>();
-        }
+        compliance.times(&self.force[..system.rows()], &mut self.acceleration);
         let b = gain.position;
-        let tolerance = (4.0 * DEFLECTION * ACCELERATION_ERROR * b).sqrt();
         let largest_kept = (8.0 * DEFLECTION.powi(2) * ACCELERATION_ERROR * b).cbrt();
         let has_internal = self.d.len() > system.rows();
-        let mut keeps_jacobian = false;
+        let mut keeps_jacobian = self.jacobian.is_for(gain);
+        let mut change_before = None;
         let mut failure = StepFailure { row: 0, residual: f64::INFINITY, iterations: 0 };
         for iteration in 1..=MAX_ITERATIONS {
             self.iterations += 1;
@@ -106,22 +121,32 @@ impl InterfaceNewton {
             } else {
                 self.evaluate(system, rotations, gain);
                 self.find_residual(compliance);
-                self.linearise(system, gain, compliance);
-                if !self.jacobian.factor() {
+                self.set_tangent(system, gain);
+                if !self.jacobian.factor(gain, &compliance.rows, &self.blocks, !has_internal) {
                     return Err(failure);
                 }
+                change_before = None;
             }
-            self.jacobian.solve(&mut self.correction);
-            let (row, largest) = self.correct(gain);
-            failure = StepFailure { row, residual: largest, iterations: iteration };
-            if largest <= tolerance {
+            self.jacobian.solve(&self.residual, &mut self.correction);
+            let (row, change) = self.correct(gain);
+            failure = StepFailure { row, residual: change, iterations: iteration };
+            let is_old = self.jacobian.is_old();
+            let serves = match change_before {
+                Some(before) if is_old => self.jacobian.observe(change, before),
+                _ => is_old || change <= largest_kept,
+            };
+            let of_second_order = change * change / (4.0 * DEFLECTION) / (ACCELERATION_ERROR * b);
+            let of_old_jacobian = self.jacobian.contraction() * change / (OLD_JACOBIAN_ERROR * b);
+            if of_second_order + of_old_jacobian <= 1.0 {
                 self.apply_last_correction(system, gain);
+                self.jacobian.solved();
                 return Ok(());
             }
-            if !largest.is_finite() {
+            if !change.is_finite() {
                 return Err(failure);
             }
-            keeps_jacobian = !has_internal && largest <= largest_kept;
+            keeps_jacobian = !has_internal && serves;
+            change_before = Some(change);
         }
         Err(failure)
     }
@@ -150,20 +175,20 @@ impl InterfaceNewton {
     }
 
     /// u − Y f.
-    fn find_residual(&mut self, compliance: &[f64]) {
-        let lines = compliance.chunks_exact(self.correction.len());
-        for ((residual, u), y) in self.correction.iter_mut().zip(&self.acceleration).zip(lines) {
-            *residual = u - dot(y, &self.force);
+    fn find_residual(&mut self, compliance: &Compliance) {
+        compliance.times(&self.force[..self.residual.len()], &mut self.residual);
+        for (residual, u) in self.residual.iter_mut().zip(&self.acceleration) {
+            *residual = u - *residual;
         }
     }
 
-    /// Jacobian I + Y (b K + c C), with the tangents block by block.
-    fn linearise(&mut self, system: &System, gain: &NewmarkGain, compliance: &[f64]) {
+    /// b K + c C, block by block.
+    fn set_tangent(&mut self, system: &System, gain: &NewmarkGain) {
         for (interface, reaction) in system.interfaces.iter().zip(&self.reactions) {
             let (own, count) = (interface.row_range(), interface.rows);
             let effective = &self.tangents.stiffness[interface.stiffness_range()];
             for b in 0..count {
-                let line = &mut self.tangent.row_mut(own.start + b)[own.clone()];
+                let line = &mut self.jacobian.tangent.row_mut(own.start + b)[own.clone()];
                 if effective.is_empty() {
                     let (k, c) = (&reaction.stiffness[b], &reaction.damping[b]);
                     for (entry, (k, c)) in line.iter_mut().zip(k.iter().zip(c)) {
@@ -176,7 +201,6 @@ impl InterfaceNewton {
                 }
             }
         }
-        self.jacobian.set_to_identity_plus_product(compliance, &self.tangent, &self.blocks);
     }
 
     /// u ← u − Δ; the row with the largest change of displacement, and that change.
@@ -201,7 +225,7 @@ impl InterfaceNewton {
             let correction = &self.correction[interface.row_range()];
             let on_rows = &mut on_rows[interface.row_range()];
             for (row, force) in interface.row_range().zip(&mut *on_rows) {
-                *force += dot(&self.tangent.row(row)[interface.row_range()], correction);
+                *force += dot(&self.jacobian.tangent.row(row)[interface.row_range()], correction);
             }
             for (force, on_row) in reaction.force.iter_mut().zip(on_rows) {
                 *force = *on_row;

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::driven_buffers::{DrivenMemory, DrivenStep};
 use super::force_history::ForceHistory;
+use super::kept_jacobian::Kept;
 use super::step_matrix::{Inversions, StepMatrices};
 use super::{GeneralisedAlpha, Scheme};
 use crate::transient::system::System;
@@ -14,6 +15,7 @@ pub struct StepMemory {
     forces: ForceHistory,
     inversions: Inversions,
     driven: Option<DrivenMemory>,
+    jacobian: Kept,
     iterations: u64,
 }
 
@@ -21,6 +23,7 @@ impl StepMemory {
     /// Whether it is one of a system of this size.
     pub fn fits(&self, system: &System) -> bool {
         self.forces.places() == system.interface_size()
+            && self.jacobian.fits(system.rows())
             && self.driven.as_ref().is_none_or(|driven| system.drive.is_some() && driven.fits(system.size()))
     }
 }
@@ -32,6 +35,7 @@ impl GeneralisedAlpha {
             forces: self.forces.clone(),
             inversions: self.matrices.inversions(),
             driven: self.driven.as_ref().map(DrivenStep::memory),
+            jacobian: self.newton.memory(),
             iterations: self.iterations(),
         }
     }
@@ -43,7 +47,7 @@ impl GeneralisedAlpha {
         out.matrices = StepMatrices::repeat(system, scheme, &memory.inversions);
         let driven = system.drive.as_ref().zip(memory.driven.as_ref());
         out.driven = driven.map(|(drive, memory)| DrivenStep::after(drive, memory));
-        out.newton.iterations = memory.iterations;
+        out.newton.restore(&memory.jacobian, memory.iterations);
         out
     }
 }

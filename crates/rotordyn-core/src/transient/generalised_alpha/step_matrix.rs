@@ -6,6 +6,7 @@ use super::Scheme;
 use crate::model::Spin;
 use crate::transient::system::System;
 use rotordyn_linalg::panel::Panel;
+use rotordyn_linalg::small_dense::PaddedMatrix;
 use serde::{Deserialize, Serialize};
 
 /// Largest (Ω − Ω_f) h for which matrices inverted at Ω_f are used, by their second-order expansion in Ω: the neglected
@@ -44,11 +45,25 @@ pub(super) struct StepMatrix {
     free: Expansion,
     /// R = S⁻¹ Wᵀ, coordinates × rows.
     response: Expansion,
-    /// W R, row-major: rows × rows.
-    compliance: Vec<f64>,
+    compliance: Compliance,
     compliance_terms: [DMatrix<f64>; 3],
     /// S⁻¹, under a torque drive.
     inverse: Option<Expansion>,
+}
+
+/// Y = W R = W S⁻¹ Wᵀ, rows × rows.
+pub(super) struct Compliance {
+    /// Row-major.
+    pub rows: Vec<f64>,
+    /// Its columns, for products.
+    columns: PaddedMatrix,
+}
+
+impl Compliance {
+    /// Y f.
+    pub fn times(&self, force: &[f64], out: &mut [f64]) {
+        self.columns.sum_of_rows(force, out);
+    }
 }
 
 /// Speed \[rad/s\] and acceleration \[rad/s²\] of the matrices, and the first and last time at which steps with them end.
@@ -202,7 +217,7 @@ impl StepMatrix {
             free: Expansion::new(&free, system.panels.has_spin_up().then(by_acceleration)),
             // Column-major of the transpose is row-major.
             compliance_terms: response.each_ref().map(|r| (&system.interface_map * r).transpose()),
-            compliance: Vec::new(),
+            compliance: Compliance { rows: Vec::new(), columns: PaddedMatrix::new(system.rows()) },
             response: Expansion::new(&response, None),
             inverse: system.drive.is_some().then(|| Expansion::new(&expansion(inverse.clone(), None), None)),
         };
@@ -227,8 +242,10 @@ impl StepMatrix {
         }
         let [at_inversion, first, second] = &self.compliance_terms;
         let terms = at_inversion.iter().zip(first).zip(second);
-        self.compliance.clear();
-        self.compliance.extend(terms.map(|((a, b), c)| a + change * (b + change * c)));
+        let Compliance { rows, columns } = &mut self.compliance;
+        rows.clear();
+        rows.extend(terms.map(|((a, b), c)| a + change * (b + change * c)));
+        columns.set_to_transpose(rows);
         self.window = window;
     }
 
@@ -254,8 +271,8 @@ impl StepMatrix {
         }
     }
 
-    /// W R, row-major.
-    pub fn compliance(&self) -> &[f64] {
+    /// Y = W R.
+    pub fn compliance(&self) -> &Compliance {
         &self.compliance
     }
 }
