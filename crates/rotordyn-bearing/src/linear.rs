@@ -199,6 +199,10 @@ impl BearingElement for LinearElement {
         Self::reaction(self, d, v, rotation.shaft_speed)
     }
 
+    fn has_cheap_force(&self) -> bool {
+        true
+    }
+
     fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, _angles: usize) -> Reaction {
         Self::reaction(self, d, &[0.0; 6], rotation.shaft_speed)
     }

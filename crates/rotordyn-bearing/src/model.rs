@@ -154,9 +154,14 @@ pub trait BearingElement: Debug + Send + Sync {
     fn reaction(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation) -> Reaction;
 
     /// The force of [`BearingElement::reaction`] with its energy, powers and mean contact angle, written to `out`; the
-    /// tangents of `out` are unspecified. For explicit time integration.
+    /// tangents of `out` are unspecified. For time integration.
     fn force(&self, d: &[f64; 6], v: &[f64; 6], rotation: &Rotation, out: &mut Reaction) {
         *out = self.reaction(d, v, rotation);
+    }
+
+    /// Whether [`BearingElement::force`] takes half the time of [`BearingElement::reaction`] or less, or both take next to none.
+    fn has_cheap_force(&self) -> bool {
+        false
     }
 
     /// Static reaction averaged over one pitch of cage angles (`angles` samples), without imperfections.

@@ -130,6 +130,11 @@ impl BallElement {
         out.mean_cos = if sum.load > 0.0 { sum.load_cos / sum.load } else { self.cage.nominal_cos };
     }
 
+    /// Whether [`BallElement::force`] is evaluated in SIMD, without tangents.
+    pub fn has_cheap_force(&self) -> bool {
+        self.rows.iter().all(|(_, row)| row.has_kernel())
+    }
+
     /// Surface profiles of the rows that are not perfect.
     pub(super) fn profiles(&self) -> impl Iterator<Item = &Profile> {
         self.rows.iter().filter_map(|(_, row)| row.profile.as_deref())

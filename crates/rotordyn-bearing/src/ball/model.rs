@@ -84,6 +84,10 @@ impl BearingElement for BallElement {
         Self::force(self, d, v, rotation, out);
     }
 
+    fn has_cheap_force(&self) -> bool {
+        BallElement::has_cheap_force(self)
+    }
+
     fn cage_average(&self, d: &[f64; 6], rotation: &Rotation, angles: usize) -> Reaction {
         Self::cage_average(self, d, rotation, angles)
     }

@@ -120,6 +120,11 @@ impl Row {
         Some((kernel, self.profile_at(ring)))
     }
 
+    /// Whether there is one at every motion.
+    pub fn has_kernel(&self) -> bool {
+        self.kernel.is_some() && self.profile.as_ref().is_none_or(|profile| profile.force_law().is_none())
+    }
+
     /// The force without tangents; `None` if the row has no [`RowKernel`] or its defects act by the force law.
     pub fn force(&self, ring: &RingMotion) -> Option<RowForce> {
         let (kernel, profile) = self.kernel_at(ring)?;

@@ -36,6 +36,8 @@ pub(super) struct InterfaceNewton {
     residual: Vec<f64>,
     correction: Vec<f64>,
     jacobian: KeptJacobian,
+    /// Whether it serves later steps: iterations with forces alone must cost less than new tangents.
+    keeps_jacobian: bool,
     /// Rows of every interface.
     blocks: Vec<Range<usize>>,
     d: Vec<f64>,
@@ -60,6 +62,7 @@ impl InterfaceNewton {
             residual: vec![0.0; rows],
             correction: vec![0.0; rows],
             jacobian: KeptJacobian::new(rows),
+            keeps_jacobian: system.interfaces.iter().all(|i| i.internal == 0 && i.element.has_cheap_force()),
             blocks: system.interfaces.iter().map(Interface::row_range).collect(),
             d: vec![0.0; places],
             d_rate: vec![0.0; places],
@@ -94,8 +97,7 @@ impl InterfaceNewton {
 
     /// Solves for the bearing forces from the guess in `force`; `compliance`: Y.
     ///
-    /// Starts with the Jacobian of an earlier step: the tangents of a step are mostly those of the last one, and forces alone
-    /// cost less.
+    /// Starts with the Jacobian of an earlier step where that costs less: the tangents of a step are mostly those of the last one.
     ///
     /// # Errors
     /// No convergence within the largest number of iterations, a singular Jacobian, or NaN.
@@ -122,7 +124,7 @@ impl InterfaceNewton {
                 self.evaluate(system, rotations, gain);
                 self.find_residual(compliance);
                 self.set_tangent(system, gain);
-                if !self.jacobian.factor(gain, &compliance.rows, &self.blocks, !has_internal) {
+                if !self.jacobian.factor(gain, &compliance.rows, &self.blocks, self.keeps_jacobian) {
                     return Err(failure);
                 }
                 change_before = None;

@@ -38,9 +38,11 @@ pub(super) struct Kept {
 impl Kept {
     /// Whether it is one of a system with this many interface rows.
     pub fn fits(&self, rows: usize) -> bool {
-        let none = self.compliance.is_empty() && self.tangent.is_empty();
-        self.gain.is_none() && none
-            || [&self.compliance, &self.tangent].iter().all(|m| m.len() == rows * rows)
+        let matrices = [&self.compliance, &self.tangent];
+        match self.gain {
+            None => matrices.iter().all(|matrix| matrix.len() <= rows * rows),
+            Some(_) => rows > 0 && matrices.iter().all(|matrix| matrix.len() == rows * rows),
+        }
     }
 }
 
