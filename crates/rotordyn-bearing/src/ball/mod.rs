@@ -26,6 +26,8 @@ pub mod fit;
 pub mod inertia;
 mod inertial_ball;
 mod input;
+#[cfg(test)]
+mod kernel_tests;
 mod load;
 pub mod lubrication;
 mod massless;
