@@ -2,18 +2,7 @@
 
 use std::ops::{Add, AddAssign, Div, Mul, Sub};
 
-use pulp::{Simd, WithSimd};
-
-/// Number of lanes of this processor's vectors.
-pub(crate) struct CountLanes;
-
-impl WithSimd for CountLanes {
-    type Output = usize;
-
-    fn with_simd<S: Simd>(self, _: S) -> usize {
-        S::F64_LANES
-    }
-}
+use pulp::Simd;
 
 /// A vector of numbers, one per lane.
 #[derive(Clone, Copy, Debug)]
@@ -37,22 +26,21 @@ impl<S: Simd> Lanes<S> {
     /// Zero where not above zero; NaN stays.
     #[inline(always)]
     pub fn positive_part(self) -> Self {
-        let zero = self.simd.splat_f64s(0.0);
-        self.select_where_at_most(zero, zero, self.values)
+        self.if_positive(self.values)
     }
 
     /// 1 where above zero, 0 elsewhere; 1 for NaN.
     #[inline(always)]
     pub fn is_positive(self) -> Self {
-        let [zero, one] = [0.0, 1.0].map(|value| self.simd.splat_f64s(value));
-        self.select_where_at_most(zero, zero, one)
+        self.if_positive(self.simd.splat_f64s(1.0))
     }
 
+    /// These values where above zero or NaN, 0 elsewhere.
     #[inline(always)]
-    fn select_where_at_most(self, limit: S::f64s, at_most: S::f64s, above: S::f64s) -> Self {
+    fn if_positive(self, then: S::f64s) -> Self {
         let Self { simd, values } = self;
-        let is_at_most = simd.less_than_or_equal_f64s(values, limit);
-        Self { simd, values: simd.select_f64s(is_at_most, at_most, above) }
+        let zero = simd.splat_f64s(0.0);
+        Self { simd, values: simd.select_f64s(simd.less_than_or_equal_f64s(values, zero), zero, then) }
     }
 
     /// The smaller of the number and 1; NaN stays.

@@ -28,7 +28,7 @@ impl Panel {
     /// Panel of matrices with the same number of rows.
     pub fn new(blocks: &[&DMatrix<f64>]) -> Self {
         let arch = Arch::new();
-        Self::with_lanes(blocks, arch, arch.dispatch(Lanes))
+        Self::with_lanes(blocks, arch, vector_length(arch))
     }
 
     fn with_lanes(blocks: &[&DMatrix<f64>], arch: Arch, lanes: usize) -> Self {
@@ -47,6 +47,17 @@ impl Panel {
             rest = after;
         }
         Self { rows, columns, data, lanes, arch }
+    }
+
+    /// Sets a column; `values`: one per row.
+    pub fn set_column(&mut self, column: usize, values: &[f64]) {
+        let block = BLOCK * self.lanes;
+        let mut start = 0;
+        for values in values[..self.rows].chunks(block) {
+            let stride = values.len().next_multiple_of(self.lanes);
+            self.data[start + column * stride..][..values.len()].copy_from_slice(values);
+            start += stride * self.columns;
+        }
     }
 
     /// Number of columns of all blocks together.
@@ -78,7 +89,11 @@ impl Panel {
     }
 }
 
-/// Number of elements of this processor's vectors.
+/// Number of elements of a vector of this processor.
+pub fn vector_length(arch: Arch) -> usize {
+    arch.dispatch(Lanes)
+}
+
 struct Lanes;
 
 impl WithSimd for Lanes {
@@ -215,6 +230,9 @@ mod tests {
                 );
             let panel = Panel::new(&[&a, &b]);
             assert_eq!(panel.columns(), first + second);
+            let mut by_columns = Panel::new(&[&DMatrix::zeros(rows, first + second)]);
+            both.column_iter().enumerate().for_each(|(k, c)| by_columns.set_column(k, c.as_slice()));
+            assert_eq!(by_columns.data, panel.data, "{rows}");
             let x: Vec<f64> = (0..first + second).map(|k| 1.0 - 0.3 * k as f64).collect();
             let mut found: [Vec<f64>; 5] = std::array::from_fn(|_| vec![0.5; rows]);
             panel.mul_add(&x, &mut found[0]);

@@ -1,7 +1,7 @@
 //! Allocation-free dense solver for small linear systems inside a time step.
 
 use super::dot;
-use pulp::{Arch, NullaryFnOnce};
+use pulp::Arch;
 use std::ops::Range;
 
 /// Solves A x = b in place by Gaussian elimination with partial pivoting; `b` becomes x.
@@ -147,41 +147,6 @@ impl PaddedMatrix {
         }
     }
 
-    /// Sets the rows to the columns of a matrix, given row by row.
-    pub fn set_to_transpose(&mut self, matrix: &[f64]) {
-        for row in 0..self.size {
-            let columns = matrix.iter().skip(row).step_by(self.size);
-            self.row_mut(row).iter_mut().zip(columns).for_each(|(to, from)| *to = *from);
-        }
-    }
-
-    /// Sum of the rows, each times its factor: with the transpose of a matrix in them its product with a vector.
-    pub fn sum_of_rows(&self, factors: &[f64], out: &mut [f64]) {
-        match self.vectors {
-            1 => self.arch.dispatch(SumOfRows::<1> { rows: &self.data, factors, out }),
-            2 => self.arch.dispatch(SumOfRows::<2> { rows: &self.data, factors, out }),
-            3 => self.arch.dispatch(SumOfRows::<3> { rows: &self.data, factors, out }),
-            4 => self.arch.dispatch(SumOfRows::<4> { rows: &self.data, factors, out }),
-            _ => {
-                out.fill(0.0);
-                for (row, factor) in self.data.chunks_exact(self.vectors).zip(factors) {
-                    out.iter_mut().zip(row.as_flattened()).for_each(|(out, a)| *out += factor * a);
-                }
-            }
-        }
-    }
-
-    /// Sets the rows to the columns of the inverse of a matrix with these factors, for [`Self::sum_of_rows`].
-    pub fn set_to_transposed_inverse(&mut self, factors: &Self) {
-        let n = self.size;
-        for k in 0..n {
-            let column = &mut self.row_mut(k)[..n];
-            column.fill(0.0);
-            column[k] = 1.0;
-            factors.solve(column);
-        }
-    }
-
     /// Factors the matrix in place by Gaussian elimination with partial pivoting, for [`Self::solve`].
     ///
     /// Returns false for a zero or non-finite pivot.
@@ -258,45 +223,6 @@ impl PaddedMatrix {
     }
 }
 
-/// A sum of rows of V vectors, which stay in registers; even and odd rows have sums of their own, so that no sum waits for
-/// the last one (a closure would not be inlined into code for wide vectors).
-struct SumOfRows<'a, const V: usize> {
-    rows: &'a [Lanes],
-    factors: &'a [f64],
-    out: &'a mut [f64],
-}
-
-impl<const V: usize> NullaryFnOnce for SumOfRows<'_, V> {
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let mut sums = [[[0.0; LANES]; V]; 2];
-        let (rows, _) = self.rows.as_chunks::<V>();
-        let ((pairs, last), (factors, last_factor)) = (rows.as_chunks::<2>(), self.factors.as_chunks::<2>());
-        for (pair, factors) in pairs.iter().zip(factors) {
-            for parity in 0..2 {
-                add_row(&mut sums[parity], &pair[parity], factors[parity]);
-            }
-        }
-        for (row, factor) in last.iter().zip(last_factor) {
-            add_row(&mut sums[0], row, *factor);
-        }
-        let [even, odd] = sums;
-        let sums = even.as_flattened().iter().zip(odd.as_flattened());
-        self.out.iter_mut().zip(sums).for_each(|(out, (even, odd))| *out = even + odd);
-    }
-}
-
-#[inline(always)]
-fn add_row<const V: usize>(sum: &mut [Lanes; V], row: &[Lanes; V], factor: f64) {
-    for v in 0..V {
-        for k in 0..LANES {
-            sum[v][k] += factor * row[v][k];
-        }
-    }
-}
-
 /// line − factor · row, of V vectors.
 #[inline(always)]
 fn subtract<const V: usize>(line: &mut [Lanes], row: &[Lanes], factor: f64) {
@@ -334,31 +260,12 @@ mod tests {
                 padded.row_mut(i)[..n].copy_from_slice(&plain[i * n..(i + 1) * n]);
             }
             let right: Vec<f64> = (0..n).map(|k| 1.0 + k as f64).collect();
-            let (mut x, mut y) = (right.clone(), right.clone());
+            let (mut x, mut y) = (right.clone(), right);
             assert!(solve_in_place(&mut plain.clone(), &mut x) && padded.factor(), "{n}");
             padded.solve(&mut y);
-            let (mut inverse, mut product) = (PaddedMatrix::new(n), vec![0.0; n]);
-            inverse.set_to_transposed_inverse(&padded);
-            inverse.sum_of_rows(&right, &mut product);
-            assert!(x.iter().zip(&product).all(|(x, y)| (x - y).abs() <= 1e-9 * x.abs().max(1.0)), "{n}");
             assert!(x.iter().zip(&y).all(|(x, y)| (x - y).abs() <= 1e-10 * x.abs().max(1.0)), "{n}");
         }
         assert!(!PaddedMatrix::new(3).factor());
-    }
-
-    #[test]
-    fn product_with_the_transpose_in_the_rows() {
-        for n in 1..22 {
-            let matrix: Vec<f64> = (0..n * n).map(|k| (k as f64 * 1.7).sin()).collect();
-            let vector: Vec<f64> = (0..n).map(|k| (k as f64 - 2.5).cos()).collect();
-            let (mut transpose, mut product) = (PaddedMatrix::new(n), vec![9.0; n]);
-            transpose.set_to_transpose(&matrix);
-            transpose.sum_of_rows(&vector, &mut product);
-            for (row, found) in matrix.chunks_exact(n).zip(&product) {
-                let expected: f64 = row.iter().zip(&vector).map(|(a, x)| a * x).sum();
-                assert!((found - expected).abs() < 1e-13 * n as f64, "{n}");
-            }
-        }
     }
 
     #[test]

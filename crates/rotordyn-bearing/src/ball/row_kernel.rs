@@ -4,8 +4,9 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::ring_motion::RingMotion;
 use super::sum::{BallSum, HARMONICS, Harmonics};
-use crate::lanes::{CountLanes, Lanes};
+use crate::lanes::Lanes;
 use crate::{Profile, ProfileState};
+use rotordyn_linalg::panel::vector_length;
 
 /// Largest number of balls of a row.
 const MAX_BALLS: usize = 32;
@@ -65,7 +66,7 @@ impl RowKernel {
     /// `spacing`: cos and sin of 2πj/Z of every ball; `None` for more balls than the kernel holds.
     pub fn new(common: KernelParameters, spacing: &[[f64; 2]]) -> Option<Self> {
         let arch = Arch::new();
-        let whole = spacing.len().next_multiple_of(arch.dispatch(CountLanes));
+        let whole = spacing.len().next_multiple_of(vector_length(arch));
         let padded = |value: &dyn Fn(&[f64; 2]) -> f64| {
             let mut out: Vec<f64> = spacing.iter().map(value).collect();
             out.resize(whole, 0.0);

@@ -85,6 +85,7 @@ mod tests {
             if k == 1 {
                 assert!((out[0] - (force(1.0) + force(1.0) - force(0.0))).abs() < 1e-13);
             }
+            // Weights up to some hundreds, forces up to a hundred.
             if k >= DEGREE {
                 assert!((out[0] - force(time + step)).abs() < 1e-11, "{k}");
             }

@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
+use nalgebra::DMatrix;
 use rotordyn_bearing::internal::NewmarkGain;
+use rotordyn_linalg::panel::Panel;
 use rotordyn_linalg::small_dense::PaddedMatrix;
 use serde::{Deserialize, Serialize};
 
@@ -16,8 +18,9 @@ pub(super) struct KeptJacobian {
     /// T.
     pub tangent: PaddedMatrix,
     factors: PaddedMatrix,
-    /// Columns of the inverse, if it is kept.
-    inverse: PaddedMatrix,
+    /// If it is kept.
+    inverse: Panel,
+    column: Vec<f64>,
     kept: Kept,
 }
 
@@ -48,8 +51,13 @@ impl Kept {
 
 impl KeptJacobian {
     pub fn new(rows: usize) -> Self {
-        let [tangent, factors, inverse] = [(); 3].map(|()| PaddedMatrix::new(rows));
-        Self { tangent, factors, inverse, kept: Kept::default() }
+        Self {
+            tangent: PaddedMatrix::new(rows),
+            factors: PaddedMatrix::new(rows),
+            inverse: Panel::new(&[&DMatrix::zeros(rows, rows)]),
+            column: vec![0.0; rows],
+            kept: Kept::default(),
+        }
     }
 
     /// What the next solution needs of it.
@@ -67,7 +75,7 @@ impl KeptJacobian {
             out.factors.set_to_identity_plus_product(&memory.compliance, &out.tangent, blocks);
             // It had factors when it was stored.
             out.factors.factor();
-            out.inverse.set_to_transposed_inverse(&out.factors);
+            out.invert();
         }
         out
     }
@@ -95,7 +103,7 @@ impl KeptJacobian {
         }
         if is_kept {
             let rows = blocks.last().map_or(0, |block| block.end);
-            self.inverse.set_to_transposed_inverse(&self.factors);
+            self.invert();
             self.kept.gain = Some([gain.position, gain.velocity]);
             self.kept.compliance.clear();
             self.kept.compliance.extend_from_slice(compliance);
@@ -105,10 +113,21 @@ impl KeptJacobian {
         true
     }
 
+    /// One product costs less than two triangular solutions, which wait for every row.
+    fn invert(&mut self) {
+        for k in 0..self.column.len() {
+            self.column.fill(0.0);
+            self.column[k] = 1.0;
+            self.factors.solve(&mut self.column);
+            self.inverse.set_column(k, &self.column);
+        }
+    }
+
     /// Solves for the correction of a residual.
     pub fn solve(&self, residual: &[f64], correction: &mut [f64]) {
         if self.kept.gain.is_some() {
-            self.inverse.sum_of_rows(residual, correction);
+            correction.fill(0.0);
+            self.inverse.mul_add(residual, correction);
         } else {
             correction.copy_from_slice(residual);
             self.factors.solve(correction);

@@ -6,7 +6,6 @@ use super::Scheme;
 use crate::model::Spin;
 use crate::transient::system::System;
 use rotordyn_linalg::panel::Panel;
-use rotordyn_linalg::small_dense::PaddedMatrix;
 use serde::{Deserialize, Serialize};
 
 /// Largest (Ω − Ω_f) h for which matrices inverted at Ω_f are used, by their second-order expansion in Ω: the neglected
@@ -55,14 +54,33 @@ pub(super) struct StepMatrix {
 pub(super) struct Compliance {
     /// Row-major.
     pub rows: Vec<f64>,
-    /// Its columns, for products.
-    columns: PaddedMatrix,
+    product: Panel,
 }
 
 impl Compliance {
+    fn new(rows: usize) -> Self {
+        Self { rows: vec![0.0; rows * rows], product: Panel::new(&[&DMatrix::zeros(rows, rows)]) }
+    }
+
+    /// Sets Y = Y₀ + κ Y₁ + κ² Y₂, the terms transposed.
+    fn set(&mut self, terms: &[DMatrix<f64>; 3], change: f64) {
+        let [at_inversion, first, second] = terms;
+        let terms = at_inversion.iter().zip(first).zip(second);
+        self.rows.clear();
+        self.rows.extend(terms.map(|((a, b), c)| a + change * (b + change * c)));
+        let rows = at_inversion.nrows();
+        let mut column = Vec::with_capacity(rows);
+        for k in 0..rows {
+            column.clear();
+            column.extend(self.rows.iter().skip(k).step_by(rows));
+            self.product.set_column(k, &column);
+        }
+    }
+
     /// Y f.
     pub fn times(&self, force: &[f64], out: &mut [f64]) {
-        self.columns.sum_of_rows(force, out);
+        out.fill(0.0);
+        self.product.mul_add(force, out);
     }
 }
 
@@ -217,7 +235,7 @@ impl StepMatrix {
             free: Expansion::new(&free, system.panels.has_spin_up().then(by_acceleration)),
             // Column-major of the transpose is row-major.
             compliance_terms: response.each_ref().map(|r| (&system.interface_map * r).transpose()),
-            compliance: Compliance { rows: Vec::new(), columns: PaddedMatrix::new(system.rows()) },
+            compliance: Compliance::new(system.rows()),
             response: Expansion::new(&response, None),
             inverse: system.drive.is_some().then(|| Expansion::new(&expansion(inverse.clone(), None), None)),
         };
@@ -240,12 +258,7 @@ impl StepMatrix {
         for expansion in [&mut self.free, &mut self.response].into_iter().chain(&mut self.inverse) {
             expansion.set(change, acceleration_change);
         }
-        let [at_inversion, first, second] = &self.compliance_terms;
-        let terms = at_inversion.iter().zip(first).zip(second);
-        let Compliance { rows, columns } = &mut self.compliance;
-        rows.clear();
-        rows.extend(terms.map(|((a, b), c)| a + change * (b + change * c)));
-        columns.set_to_transpose(rows);
+        self.compliance.set(&self.compliance_terms, change);
         self.window = window;
     }
 
