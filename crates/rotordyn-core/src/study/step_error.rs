@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::Machine;
 use super::probe_filter::ProbeFilter;
 use crate::model::study::{Integrator, RunUpStudy};
-use crate::results::{History, StepError, StepErrorLine};
+use crate::results::{History, HistoryChannel, StepError, StepErrorLine};
 use crate::series::SeriesError;
 use crate::transient::reduction::Reduction;
 use crate::transient::run::{End, Report, Sample, Settings, run};
@@ -34,6 +34,9 @@ const FEWEST_CYCLES: f64 = 4.0;
 /// Lines below this share of their channel's largest level, or of the RMS value of its vibration, are left out.
 const SMALLEST_SHARE: f64 = 0.01;
 const SMALLEST_SHARE_OF_VIBRATION: f64 = 1e-3;
+/// Vibration of a probe below this share of the largest RMS value of a probe with its unit, offset included, is round-off: a
+/// direction that nothing excites. What two steps make of it says nothing.
+const ROUND_OFF: f64 = 1e-10;
 
 /// States of a run at regular intervals, from which a stretch can be rerun: at most 65 of them, whatever its duration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -62,7 +65,7 @@ impl Machine {
     ///
     /// `None` for error-controlled steps, for those that free balls choose (whose collisions make lines below the noise of
     /// the run differ at any step), for a run that ended early, and for one too short: an order needs four cycles
-    /// within the stretch. Of the samples only parts are read, one channel after another.
+    /// within the stretch. Of the samples only parts are read.
     ///
     /// # Errors
     /// Samples that cannot be read.
@@ -137,16 +140,25 @@ impl Machine {
         // L(h) − L(0) = (L(r h) − L(h))/(r^p − 1) for a method of order p.
         let order = if explicit { 4 } else { 2 };
         let factor = 1.0 / (ratio.powi(order) - 1.0);
+        let record = |channel: &HistoryChannel| Ok(at_samples(&channel.values.read(first..end + 1)?));
+        let channels = &history.channels[..probes];
+        let records = channels.iter().map(record).collect::<Result<Vec<_>, SeriesError>>()?;
+        let largest_with = |unit: &str| {
+            let of_unit = channels.iter().zip(&records).filter(|(channel, _)| channel.unit == unit);
+            of_unit.map(|(_, record)| mean_square(record).sqrt()).fold(0.0, f64::max)
+        };
         let mut lines = Vec::new();
-        for (channel, other) in history.channels.iter().zip(&values) {
+        for ((channel, own_values), other) in channels.iter().zip(&records).zip(&values) {
+            let vibration = variance(own_values).sqrt();
+            if vibration <= ROUND_OFF * largest_with(&channel.unit) {
+                continue;
+            }
             let level = |angle: &[f64], values: &[f64]| -> Vec<f64> {
                 orders.iter().map(|order| line_level(angle, values, *order)).collect()
             };
-            let own_values = at_samples(&channel.values.read(first..end + 1)?);
-            let [own, other] = [level(&own_angle, &own_values), level(&angle, other)];
+            let [own, other] = [level(&own_angle, own_values), level(&angle, other)];
             let largest = own.iter().copied().fold(0.0, f64::max);
-            let least =
-                (SMALLEST_SHARE * largest).max(SMALLEST_SHARE_OF_VIBRATION * variance(&own_values).sqrt());
+            let least = (SMALLEST_SHARE * largest).max(SMALLEST_SHARE_OF_VIBRATION * vibration);
             let named = self.order_lines(&orders).into_iter();
             for (line, (level, other_level)) in named.zip(own.into_iter().zip(other)) {
                 if level > least {
@@ -205,9 +217,12 @@ fn largest_response(
 }
 
 fn variance(values: &[f64]) -> f64 {
-    let count = values.len().max(1) as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count
+    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
+    values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / values.len().max(1) as f64
+}
+
+fn mean_square(values: &[f64]) -> f64 {
+    values.iter().map(|v| v * v).sum::<f64>() / values.len().max(1) as f64
 }
 
 /// RMS level of an order in a record over the shaft angle, with a Hann window over the whole angle.
