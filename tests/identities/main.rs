@@ -23,4 +23,5 @@ mod sensitivity;
 mod speed_dependent_bearings;
 mod tables;
 mod tracking;
+mod undamped;
 mod whirl_tables;

@@ -11,6 +11,8 @@ use pulp::{Arch, NullaryFnOnce};
 
 /// Fraction of its length that a vector may lose in orthogonalisation before that is repeated (Daniel et al. 1976).
 const MAX_CANCELLATION: f64 = 0.5;
+/// Images between two looks at the residuals of pairs that are to converge.
+const CHECKED_EVERY: usize = 4;
 
 /// Orthonormal basis of the Krylov space of (A − σ)⁻¹ over the states (q, v/σ), v = λ q.
 ///
@@ -110,6 +112,44 @@ impl<'a> Arnoldi<'a> {
         }
     }
 
+    /// Continues until all these Ritz pairs have residuals below a limit, or to `size` images.
+    pub fn grow_until(&mut self, size: usize, pairs: &mut [Ritz], limit: f64) {
+        let mut open = if self.block == 1 { pairs.len() } else { 0 };
+        if open == 0 {
+            return self.grow(size);
+        }
+        while open > 0 && self.size() < size {
+            self.grow((self.size() + CHECKED_EVERY).min(size));
+            if self.restarted {
+                return self.grow(size);
+            }
+            let h = self.hessenberg();
+            // The last one converges last.
+            while open > 0 && self.follow(&h, &mut pairs[open - 1]) < limit {
+                open -= 1;
+            }
+        }
+    }
+
+    /// Moves a Ritz pair to the nearest one of the present basis; its residual.
+    fn follow(&self, h: &DMatrix<f64>, ritz: &mut Ritz) -> f64 {
+        let theta = (ritz.value - self.group.shift).inv();
+        let vector = hessenberg::nearest_eigenvector(h, theta);
+        let image = hessenberg::image(h, &vector);
+        let theta: Complex64 = vector.iter().zip(&image).map(|(v, i)| v.conj() * i).sum();
+        ritz.value = theta.inv() + self.group.shift;
+        self.last_subdiagonal() * vector.last().map_or(0.0, |v| v.norm()) / theta.norm()
+    }
+
+    fn hessenberg(&self) -> DMatrix<f64> {
+        let size = self.size();
+        DMatrix::from_fn(size, size, |i, j| self.columns[j].get(i).copied().unwrap_or(0.0))
+    }
+
+    fn last_subdiagonal(&self) -> f64 {
+        self.columns.last().and_then(|column| column.last()).copied().unwrap_or(0.0)
+    }
+
     /// Appends x, orthonormalised against the basis; returns its coordinates (the last is its remaining length).
     fn add_to_basis(&mut self, mut x: Vec<f64>) -> Vec<f64> {
         let mut h = vec![0.0; self.basis.len()];
@@ -138,21 +178,22 @@ impl<'a> Arnoldi<'a> {
     /// Oscillatory Ritz pairs, lowest |λ| first.
     pub fn ritz_pairs(&self) -> Result<Box<dyn Iterator<Item = Ritz> + '_>, EigenError> {
         let (size, shift) = (self.columns.len(), self.group.shift);
-        let entry = |i: usize, j: usize| self.columns[j].get(i).copied().unwrap_or(0.0);
-        let h = DMatrix::from_fn(size, size, entry);
+        let h = self.hessenberg();
         if self.block == 1 && !self.restarted {
             let thetas = hessenberg::eigenvalues(&h)?.into_iter().filter(|theta| theta.im < 0.0);
             // θ = 1/(λ − σ) has Im θ < 0 where Im λ > 0.
             let mut values: Vec<(Complex64, Complex64)> = thetas.map(|t| (t.inv() + shift, t)).collect();
             values.sort_by(|a, b| a.0.norm().total_cmp(&b.0.norm()).then(a.0.im.total_cmp(&b.0.im)));
-            let next = self.columns.last().and_then(|column| column.last()).copied().unwrap_or(0.0);
+            let next = self.last_subdiagonal();
             return Ok(Box::new(values.into_iter().map(move |(value, theta)| {
                 let vector = hessenberg::eigenvector(&h, theta);
                 let last = vector.last().map_or(0.0, |v| v.norm());
                 Ritz { value, residual: next * last / theta.norm(), vector }
             })));
         }
-        let rest = DMatrix::from_fn(self.basis.len() - size, size, |i, j| entry(size + i, j));
+        let rest = DMatrix::from_fn(self.basis.len() - size, size, |i, j| {
+            self.columns[j].get(size + i).copied().unwrap_or(0.0)
+        });
         let mut ritz = Vec::new();
         for (theta, y) in eigen::general_small(&h)?.into_iter().filter(|(theta, _)| theta.norm() > 0.0) {
             let image =

@@ -11,6 +11,8 @@ const MAX_STEPS: usize = 60;
 const UNUSUAL: usize = 10;
 /// Solutions of the inverse iteration: the first is close already, since the eigenvalue is exact but for round-off.
 const SOLUTIONS: usize = 2;
+/// Largest residual of the recurrence, relative to the eigenvalue and the length of the vector.
+const MAX_RESIDUAL: f64 = 1e-12;
 
 /// Eigenvalues of an upper Hessenberg matrix, by the implicit double-shift QR iteration on the active block.
 ///
@@ -145,8 +147,41 @@ fn reflect_columns(h: &mut DMatrix<f64>, rows: std::ops::Range<usize>, k: usize,
     }
 }
 
-/// The eigenvector of an upper Hessenberg matrix that belongs to a computed eigenvalue θ, of length 1, by inverse iteration.
+/// The eigenvector of an upper Hessenberg matrix that belongs to a computed eigenvalue θ, of length 1.
+///
+/// By recurrence through the rows, from the last one up; where the first row is not satisfied then, by inverse iteration.
 pub fn eigenvector(h: &DMatrix<f64>, theta: Complex64) -> Vec<Complex64> {
+    recurrence(h, theta).unwrap_or_else(|| nearest_eigenvector(h, theta))
+}
+
+/// Solution of rows n − 1 to 1 of (H − θ) y = 0 with yₙ = 1; `None` unless row 0 is satisfied too.
+///
+/// Source: Hyman's method; Wilkinson, The Algebraic Eigenvalue Problem, 1965, section 7.11.
+fn recurrence(h: &DMatrix<f64>, theta: Complex64) -> Option<Vec<Complex64>> {
+    let n = h.nrows();
+    let mut y = vec![Complex64::default(); n];
+    // Parts of H y, of which columns are added as their elements become known.
+    let [mut re, mut im] = [vec![0.0; n], vec![0.0; n]];
+    let mut next = Complex64::new(1.0, 0.0);
+    for j in (0..n).rev() {
+        y[j] = next;
+        let column = &h.as_slice()[j * n..j * n + j + 1];
+        for ((re, im), h) in re.iter_mut().zip(&mut im).zip(column) {
+            *re += h * next.re;
+            *im += h * next.im;
+        }
+        next = theta * next - Complex64::new(re[j], im[j]);
+        if j > 0 {
+            next /= h[(j, j - 1)];
+        }
+    }
+    let length = y.iter().map(Complex64::norm_sqr).sum::<f64>().sqrt();
+    let satisfied = next.norm() <= MAX_RESIDUAL * theta.norm() * length;
+    satisfied.then(|| y.into_iter().map(|v| v / length).collect())
+}
+
+/// The eigenvector next to θ, by inverse iteration.
+pub fn nearest_eigenvector(h: &DMatrix<f64>, theta: Complex64) -> Vec<Complex64> {
     let lu = ShiftedLu::new(h, theta);
     // As if the left factor had turned the start to equal elements.
     let mut y = vec![Complex64::new(1.0, 0.0); h.nrows()];
@@ -163,6 +198,16 @@ pub fn eigenvector(h: &DMatrix<f64>, theta: Complex64) -> Vec<Complex64> {
         y.iter_mut().for_each(|v| *v /= length);
     }
     y
+}
+
+/// H y.
+pub fn image(h: &DMatrix<f64>, y: &[Complex64]) -> Vec<Complex64> {
+    let mut out = vec![Complex64::default(); h.nrows()];
+    for (j, (column, y)) in h.column_iter().zip(y).enumerate() {
+        let rows = (j + 2).min(h.nrows());
+        out.iter_mut().zip(column.iter()).take(rows).for_each(|(o, h)| *o += y * *h);
+    }
+    out
 }
 
 /// LU factors of H − θ with row exchanges.

@@ -4,9 +4,10 @@
 //! extending the one with the lowest converged eigenvalue. Without gyroscopic effect the block size is two,
 //! to find the double eigenvalues of an axisymmetric rotor at rest, which rotation splits.
 
-use super::arnoldi::Arnoldi;
+use super::arnoldi::{Arnoldi, Ritz};
 use super::coupled_group::CoupledGroup;
 use super::eigen::{self, EigenError};
+use super::rayleigh::RayleighFunctional;
 use super::{BandLayout, Complex64, GroupDense, SparseMatrix};
 use nalgebra::DMatrix;
 
@@ -15,6 +16,8 @@ const TOLERANCE: f64 = 1e-11;
 /// Ritz pairs with a larger residual are spurious (the operator is highly non-normal); those converging to a
 /// true eigenvalue fall below it long before higher ones have converged.
 const MAX_RITZ_RESIDUAL: f64 = 1e-3;
+/// Values up to this multiple of another may be its double, split by round-off.
+const DOUBLE: f64 = 1.0 + 1e-4;
 
 /// An eigenpair of (λ² M + λ C + K) φ = 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,16 +65,17 @@ pub fn lowest_eigenpairs_with(
         groups.iter().map(|unknowns| CoupledGroup::new(matrices, dense, unknowns, shift)).collect();
     let mut searches: Vec<Search> = parts.iter().map(Search::new).collect::<Result<_, _>>()?;
     loop {
-        let mut sizes: Vec<f64> =
-            searches.iter().flat_map(|s| s.converged.iter().map(|(value, _)| value.norm())).collect();
-        sizes.sort_by(f64::total_cmp);
-        let limit = sizes.get(count.max(1) - 1).copied().unwrap_or(f64::INFINITY);
+        let converged = searches.iter().flat_map(|s| s.converged.iter().map(|(value, _)| *value));
+        let limit = nth_size(converged.clone(), count);
+        let expected = nth_size(converged.chain(searches.iter().flat_map(Search::expected)), count);
         // Extend the group with the lowest reach until all groups reach the last of the wanted pairs.
-        let behind = searches.iter_mut().filter(|s| s.reach < limit);
+        let behind = searches.iter_mut().filter(|s| s.is_behind(limit));
         let Some(least) = behind.min_by(|a, b| a.reach.total_cmp(&b.reach)) else { break };
         // A group's share of the modes is taken proportional to its number of unknowns.
-        least.extend((count * least.part.order()).div_ceil(layout.size()))?;
+        least.extend((count * least.part.order()).div_ceil(layout.size()), count, expected)?;
     }
+    // With a dense part every mode has damping, beside which round-off does not count.
+    let functional = dense.is_none().then(|| RayleighFunctional::new(matrices));
     let mut pairs: Vec<QuadraticPair> = Vec::new();
     for (group, (unknowns, search)) in groups.iter().zip(&searches).enumerate() {
         for (value, coordinates) in &search.converged {
@@ -79,7 +83,8 @@ pub fn lowest_eigenpairs_with(
             for (&i, v) in unknowns.iter().zip(search.expand(coordinates)) {
                 vector[i] = v;
             }
-            pairs.push(QuadraticPair { value: *value, vector, group });
+            let value = functional.as_ref().map_or(*value, |f| f.corrected(*value, &vector));
+            pairs.push(QuadraticPair { value, vector, group });
         }
     }
     pairs.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()).then(a.group.cmp(&b.group)));
@@ -89,7 +94,14 @@ pub fn lowest_eigenpairs_with(
 /// Vectors of the basis with which a search for `count` eigenpairs begins, each of the size of a complex shape; `block`: two
 /// without gyroscopic effect, else one.
 pub fn first_basis(count: usize, block: usize) -> usize {
-    12 + (2 + block) * count
+    8 + (3 + block) * count
+}
+
+/// The `count`-th |λ| in ascending order, or infinity.
+fn nth_size(values: impl Iterator<Item = Complex64>, count: usize) -> f64 {
+    let mut sizes: Vec<f64> = values.map(|value| value.norm()).collect();
+    sizes.sort_by(f64::total_cmp);
+    sizes.get(count.max(1) - 1).copied().unwrap_or(f64::INFINITY)
 }
 
 /// Whether λ is oscillatory with Im λ > 0, and not a rigid-body mode.
@@ -154,6 +166,8 @@ struct Search<'a> {
     part: &'a CoupledGroup,
     /// Converged oscillatory eigenpairs; vectors in the Arnoldi basis, if any.
     converged: Vec<(Complex64, Vec<Complex64>)>,
+    /// Oscillatory Ritz pairs that are near an eigenvalue and have not converged, lowest |λ| first.
+    near: Vec<Ritz>,
     /// All oscillatory eigenvalues up to this |λ| have converged.
     reach: f64,
     arnoldi: Option<Arnoldi<'a>>,
@@ -161,39 +175,73 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(part: &'a CoupledGroup) -> Result<Self, EigenError> {
-        Ok(Self { part, converged: Vec::new(), reach: 0.0, arnoldi: Some(Arnoldi::new(part)?) })
+        Ok(Self {
+            part,
+            converged: Vec::new(),
+            near: Vec::new(),
+            reach: 0.0,
+            arnoldi: Some(Arnoldi::new(part)?),
+        })
     }
 
     fn dense(part: &'a CoupledGroup) -> Result<Self, EigenError> {
-        Ok(Self { part, converged: all_eigenpairs(part)?, reach: f64::INFINITY, arnoldi: None })
+        Ok(Self {
+            part,
+            converged: all_eigenpairs(part)?,
+            near: Vec::new(),
+            reach: f64::INFINITY,
+            arnoldi: None,
+        })
     }
 
-    /// Extends the basis; the first one is sized for `share` pairs.
-    fn extend(&mut self, share: usize) -> Result<(), EigenError> {
+    /// Values that the unconverged Ritz pairs approximate.
+    fn expected(&self) -> impl Iterator<Item = Complex64> + Clone + '_ {
+        self.near.iter().map(|ritz| ritz.value)
+    }
+
+    /// Whether a pair up to this |λ|, or the other one of a double eigenvalue there, may not have converged.
+    fn is_behind(&self, limit: f64) -> bool {
+        self.reach < limit || self.near.iter().any(|ritz| ritz.value.norm() < DOUBLE * limit)
+    }
+
+    /// Extends the basis; the first one is sized for `share` pairs, later ones so that those up to |λ| = `limit`, or all near
+    /// ones if there is none beyond, converge. More than `most` pairs are not looked at.
+    fn extend(&mut self, share: usize, most: usize, limit: f64) -> Result<(), EigenError> {
         let Some(arnoldi) = &mut self.arnoldi else { return Ok(()) };
         let size = match arnoldi.size() {
             0 => first_basis(share, arnoldi.block),
-            size => size + 8 + size / 8,
+            size if self.near.is_empty() || arnoldi.block > 1 => size + 8 + size / 8,
+            // At most: it ends where the near ones have converged.
+            size => size + 16 + size / 4,
         };
         if size >= 2 * self.part.order() - arnoldi.block {
             // Nearly the full space: the dense solver is as fast.
             *self = Self::dense(self.part)?;
             return Ok(());
         }
-        arnoldi.grow(size);
+        let wanted = self.near.iter().take_while(|ritz| ritz.value.norm() <= limit).count() + 1;
+        self.near.truncate(wanted);
+        arnoldi.grow_until(size, &mut self.near, TOLERANCE);
         self.converged.clear();
+        self.near.clear();
         self.reach = 0.0;
         // Overdamped eigenvalues accumulate at −1/β under damping β K and converge slowly: they are ignored.
         let shift = self.part.shift;
         let found = arnoldi.ritz_pairs()?.filter(|r| oscillatory(r.value, shift));
         for ritz in found.filter(|r| r.residual < MAX_RITZ_RESIDUAL) {
-            if ritz.residual >= TOLERANCE {
-                // Accurate enough to exclude any other below half of it.
-                self.reach = self.reach.max(0.5 * ritz.value.norm());
+            if ritz.residual < TOLERANCE && self.near.is_empty() {
+                self.reach = ritz.value.norm();
+                self.converged.push((ritz.value, ritz.vector));
+            } else {
+                self.near.push(ritz);
+            }
+            if self.converged.len() + self.near.len() > most {
                 break;
             }
-            self.reach = ritz.value.norm();
-            self.converged.push((ritz.value, ritz.vector));
+        }
+        if let Some(first) = self.near.first() {
+            // Accurate enough to exclude any other below half of it.
+            self.reach = self.reach.max(0.5 * first.value.norm());
         }
         Ok(())
     }

@@ -19,6 +19,7 @@
 //! | [`krylov`] | lowest eigenvalues of λ² M + λ C + K (shift-and-invert Arnoldi) |
 //! | [`panel`] | dense matrix-vector products of a time step |
 //! | [`pchip`] | monotone cubic interpolation |
+//! | `rayleigh` | eigenvalues corrected by the Rayleigh functional of their vectors |
 //! | [`refinement`] | residuals in twice the precision, iterative refinement |
 //! | [`small_dense`] | small dense linear systems |
 //! | [`spline`] | interpolating cubic spline |
@@ -42,6 +43,7 @@ mod layout_cache;
 pub mod panel;
 pub mod pchip;
 pub mod piecewise;
+mod rayleigh;
 pub mod refinement;
 pub mod small_dense;
 pub mod sparse;

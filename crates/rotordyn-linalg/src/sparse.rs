@@ -183,6 +183,46 @@ impl SparseMatrix {
         y
     }
 
+    /// xᴴ A x.
+    pub fn form(&self, x: &[super::Complex64]) -> super::Complex64 {
+        let mut sum = super::Complex64::default();
+        for (j, x_j) in x.iter().enumerate().filter(|(_, x)| x.re != 0.0 || x.im != 0.0) {
+            let (mut re, mut im) = (0.0, 0.0);
+            for k in self.start[j]..self.start[j + 1] {
+                let x_i = x[self.row_index[k]];
+                re += self.values[k] * x_i.re;
+                im += self.values[k] * x_i.im;
+            }
+            sum += super::Complex64::new(re, -im) * x_j;
+        }
+        sum
+    }
+
+    /// |x|ᵀ |A| |x|, the size of the terms of [`Self::form`].
+    pub fn form_of_sizes(&self, x: &[super::Complex64]) -> f64 {
+        let sizes: Vec<f64> = x.iter().map(|x| x.norm_sqr().sqrt()).collect();
+        let column = |j: usize| {
+            let entries = self.start[j]..self.start[j + 1];
+            entries.map(|k| self.values[k].abs() * sizes[self.row_index[k]]).sum::<f64>()
+        };
+        (0..sizes.len()).filter(|&j| sizes[j] != 0.0).map(|j| sizes[j] * column(j)).sum()
+    }
+
+    /// ½ (A − Aᵀ); without entries for a symmetric matrix.
+    pub fn skew_part(&self) -> SparseMatrix {
+        let mut out = Triplets::new(self.rows, self.cols());
+        for (i, j, v) in self.iter() {
+            let half = 0.5 * (v - self.get(j, i));
+            if half != 0.0 {
+                out.add(i, j, half);
+                if self.get(j, i) == 0.0 {
+                    out.add(j, i, -half);
+                }
+            }
+        }
+        out.build()
+    }
+
     /// Aᵀ.
     pub fn transposed(&self) -> SparseMatrix {
         let mut out = Triplets::new(self.cols(), self.rows);

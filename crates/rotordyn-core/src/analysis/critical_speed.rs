@@ -22,7 +22,7 @@ use rotordyn_linalg::Complex64;
 use search::{Search, Spectrum};
 
 /// Number of speeds of the search, both ends included.
-const SPEEDS: usize = 33;
+pub const SPEEDS: usize = 33;
 
 /// All crossings of damped modes with the lines ω_d = n Ω from one speed to another; damping and bearings included.
 ///

@@ -22,6 +22,9 @@ use crate::warning::Warning;
 use rotordyn_bearing::{BearingElement, SiteTangent};
 use rotordyn_linalg::{SparseMatrix, StopRequest, krylov};
 
+/// Speeds that a search for crossings evaluates, for each of its grid.
+const EVALUATIONS_PER_SPEED: usize = 4;
+
 /// An assembled model with the static equilibrium about which linear studies are linearised.
 pub struct Machine {
     pub model: Model,
@@ -163,10 +166,11 @@ impl Machine {
         }
     }
 
-    /// The equilibria at the speeds of a study \[rad/s\]; `None` where they are few or all the same.
-    pub(super) fn equilibrium_path(&self, speeds: &[f64]) -> Option<EquilibriumPath> {
+    /// The equilibria over the speeds of a study \[rad/s\], of which it evaluates some `count`; `None` where they are few or all
+    /// the same.
+    pub(super) fn equilibrium_path(&self, speeds: &[f64], count: usize) -> Option<EquilibriumPath> {
         let range = speed_range(speeds).filter(|[low, high]| low < high)?;
-        if speeds.len() < EquilibriumPath::LEAST_SPEEDS || !self.bearings_depend_on_speed() {
+        if count < EquilibriumPath::LEAST_SPEEDS || !self.bearings_depend_on_speed() {
             return None;
         }
         let (averaged, start) = (CageTreatment::Averaged, &self.standstill_equilibrium.q);
@@ -280,7 +284,12 @@ impl Machine {
             return machine.campbell(study);
         }
         self.check_tables("campbell", &study.speeds)?;
-        let tangents = |speed| self.tangents(speed, study.speed_dependent_bearings);
+        let count = EVALUATIONS_PER_SPEED * study.speeds.len();
+        let path = self.equilibrium_path(&study.speeds, count).filter(|_| study.speed_dependent_bearings);
+        let tangents = |speed| match study.speed_dependent_bearings {
+            true => self.tangents_on(path.as_ref(), speed),
+            false => self.tangents(speed, false),
+        };
         let diagram = campbell::campbell(&self.assembly, &study.speeds, study.modes, &tangents)?;
         let crossings = critical_speed::crossings(&self.assembly, &diagram, &study.orders, &tangents)?;
         let thresholds = stability::thresholds(&self.assembly, &diagram, &tangents)?;
@@ -296,8 +305,9 @@ impl Machine {
             return machine.critical(study);
         }
         self.check_tables("critical", &[0.0, study.max_speed])?;
-        let tangents = |speed| self.tangents(speed, true);
         let (assembly, max_speed) = (&self.assembly, study.max_speed);
+        let path = self.equilibrium_path(&[0.0, max_speed], EVALUATIONS_PER_SPEED * critical_speed::SPEEDS);
+        let tangents = |speed| self.tangents_on(path.as_ref(), speed);
         let crossings =
             critical_speed::critical_speeds(assembly, [0.0, max_speed], &study.orders, &tangents)?;
         Ok(CriticalResult { max_speed, crossings })

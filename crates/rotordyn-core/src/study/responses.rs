@@ -136,7 +136,7 @@ impl Machine {
         let poles = synchronous_poles(&self.assembly, range, &tangents)?;
         let shaft = ShaftSections::new(&self.model);
         let observe = |motion: UnbalanceMotion| self.observe(motion, &observed, &shaft);
-        let path = self.equilibrium_path(&study.speeds);
+        let path = self.equilibrium_path(&study.speeds, study.speeds.len());
         let tangents = |speed| self.tangents_on(path.as_ref(), speed);
         let evaluate = |speeds: &[f64]| unbalance::response(&self.assembly, speeds, &tangents, observe);
         let RefinedGrid { points: speeds, samples, requested } =

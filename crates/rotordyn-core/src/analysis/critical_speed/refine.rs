@@ -14,6 +14,8 @@ const MAX_ITERATIONS: usize = 16;
 const MAX_SHAPE_CHANGE: f64 = 1e-6;
 const MAX_VALUE_CHANGE: f64 = 1e-12;
 const RELATIVE_SHIFT: f64 = 1e-4;
+/// Relative distance from an eigenvalue that is known, of which others are far.
+const KNOWN_SHIFT: f64 = 1e-9;
 const MAX_SECANT_STEPS: usize = 20;
 
 /// The eigenpair of P(λ) φ = (λ² M + λ D + S) φ = 0 next to an approximate one; `None` without convergence.
@@ -29,6 +31,28 @@ pub(super) fn nearest_eigenpair(system: &LinearSystem, start: &Eigenpair) -> Opt
         None => inverse_iteration(system, &layout, (value, shape)),
         Some(modal) => residual_iteration(system, modal, &layout, (value, shape)),
     }
+}
+
+/// The eigenpair of a computed eigenvalue apart from all others, by inverse iteration; `None` with modal damping, which is
+/// dense.
+pub(super) fn eigenpair_of(system: &LinearSystem, value: Complex64) -> Option<Eigenpair> {
+    if system.modal.is_some() {
+        return None;
+    }
+    let [m, d, s] = [&system.mass, &system.damping, &system.stiffness].map(|a| system.layout.scatter(a));
+    let mut lu = system.layout.workspace::<Complex64>();
+    // At λ itself the matrix may be singular to the last bit.
+    let shift = value * (1.0 + KNOWN_SHIFT);
+    lu.refactor(|k| shift * shift * m[k] + shift * d[k] + s[k]).ok()?;
+    // All unknowns are excited, whatever their group. The mass matrix gives forces from displacements and rotations alike.
+    let start: Vec<f64> = (0..system.layout.size()).map(|i| 1.0 + 0.5 * (i as f64).sin()).collect();
+    let mut shape: Vec<Complex64> = system.mass.mul(&start).into_iter().map(Complex64::from).collect();
+    for _ in 0..2 {
+        lu.solve(&mut shape);
+        shape = derivative(system, shift, &mass_normalised(shape, &system.mass));
+    }
+    lu.solve(&mut shape);
+    Some((value, mass_normalised(shape, &system.mass)))
 }
 
 /// Newton's method: P(λ) ψ = P'(λ) φ, λ ← λ − (wᴴ φ)/(wᴴ ψ), w = M φ.

@@ -16,6 +16,7 @@ use rayon::prelude::*;
 use rotordyn_bearing::SiteTangent;
 use rotordyn_linalg::Complex64;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Modes with |λ| up to this multiple of the highest order line are computed: damping ratios up to 0.6.
 const REACH: f64 = 1.25;
@@ -24,6 +25,8 @@ const HEAVY_REACH: f64 = 3.0;
 const HEAVY_DAMPING: f64 = 0.3;
 /// A mode lies on an order line within this relative difference of frequencies.
 const ON_LINE: f64 = 1e-8;
+/// Relative distance of two eigenvalues from which each has a shape of its own.
+const LEAST_GAP: f64 = 1e-5;
 /// Largest number of halvings of a step in which N changes twice.
 const MAX_HALVINGS: usize = 6;
 /// Largest number of halvings of a step to separate its crossings, before each is bracketed.
@@ -49,6 +52,13 @@ impl Spectrum {
     /// Number of modes below an order line.
     fn below(&self, order: f64) -> usize {
         self.values.partition_point(|value| value.im < order * self.speed)
+    }
+
+    /// The eigenvalue at an index, unless another one is so near that both have a shape in common.
+    fn isolated(&self, index: usize) -> Option<Complex64> {
+        let value = *self.values.get(index)?;
+        let near = |other: &Complex64| (other - value).norm() < LEAST_GAP * value.norm();
+        (self.values.iter().filter(|other| near(other)).count() == 1).then_some(value)
     }
 
     /// ω_d − n Ω of the mode at an index.
@@ -130,11 +140,19 @@ impl<'a, T: Tangents> Search<'a, T> {
         }
     }
 
-    /// The eigenpairs of a spectrum, by damped frequency.
-    fn sorted_pairs(&self, of: &Spectrum) -> Result<Vec<Eigenpair>, PhysicsError> {
-        let mut pairs = self.pairs(&self.system(of.speed)?, of.values.len().max(2) - 1)?;
+    /// The eigenpairs at these indices of a spectrum, by damped frequency.
+    fn pairs_at(&self, of: &Spectrum, indices: Range<usize>) -> Result<Vec<Eigenpair>, PhysicsError> {
+        if indices.is_empty() {
+            return Ok(Vec::new());
+        }
+        let system = self.system(of.speed)?;
+        let known = |index| refine::eigenpair_of(&system, of.isolated(index)?);
+        if let Some(pairs) = indices.clone().map(known).collect() {
+            return Ok(pairs);
+        }
+        let mut pairs = self.pairs(&system, of.values.len().max(2) - 1)?;
         pairs.sort_by(|a, b| a.0.im.total_cmp(&b.0.im));
-        Ok(pairs)
+        Ok(pairs.into_iter().skip(indices.start).take(indices.len()).collect())
     }
 
     /// Number of modes below an order line, at most as many as are searched.
@@ -287,9 +305,11 @@ impl<'a, T: Tangents> Search<'a, T> {
         // The end at which the modes of these indices lie below the line, so that both are known there.
         let end = if nb > na { b } else { a };
         let mut found = ByIndex::new();
-        let starts = if indices.is_empty() { Vec::new() } else { self.sorted_pairs(end)? };
-        for index in indices.clone() {
-            let Some(start) = starts.get(index).filter(|_| !found.contains_key(&index)) else { continue };
+        let starts = self.pairs_at(end, indices.clone())?;
+        for (index, start) in indices.clone().zip(&starts) {
+            if found.contains_key(&index) {
+                continue;
+            }
             let ends = (a.speed, b.speed);
             // Linear between both ends, or constant if the frequency is not known at the other.
             let trial = match (a.gap(index, order), b.gap(index, order)) {
