@@ -3,6 +3,7 @@
 use super::Complex64;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{self, ComputeEigenvectors, EvdParams, SelfAdjointEvdParams};
+use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::{Auto, Par, Spec};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -170,6 +171,13 @@ pub fn symmetric(a: &DMatrix<f64>) -> Result<(DVector<f64>, DMatrix<f64>), Eigen
     if a.iter().any(|v| !v.is_finite()) {
         return Err(EigenError::NotFinite);
     }
+    let (values, vectors) = symmetric_of(&faer::Mat::from_fn(a.nrows(), a.nrows(), |i, j| a[(i, j)]))?;
+    let n = values.len();
+    Ok((DVector::from_vec(values), DMatrix::from_fn(n, n, |i, j| vectors[(i, j)])))
+}
+
+/// As [`symmetric`]; the entries must be finite.
+fn symmetric_of(a: &faer::Mat<f64>) -> Result<(Vec<f64>, faer::Mat<f64>), EigenError> {
     let n = a.nrows();
     let source = faer::Mat::from_fn(n, n, |i, j| 0.5 * (a[(i, j)] + a[(j, i)]));
     // The divide-and-conquer path of faer 0.24 loses eigenvectors of graded spectra with double
@@ -189,7 +197,7 @@ pub fn symmetric(a: &DMatrix<f64>) -> Result<(DVector<f64>, DMatrix<f64>), Eigen
         params,
     )
     .map_err(|_| EigenError::NoConvergence)?;
-    Ok((DVector::from_fn(n, |i, _| values[i]), DMatrix::from_fn(n, n, |i, j| vectors[(i, j)])))
+    Ok(((0..n).map(|i| values[i]).collect(), vectors))
 }
 
 /// Undamped modes K φ = ω² M φ: ω² ascending and φ with φᵀ M φ = 1.
@@ -206,20 +214,79 @@ pub fn undamped(
     sigma: f64,
 ) -> Result<(Vec<f64>, DMatrix<f64>), EigenError> {
     let n = k.nrows();
-    let lower = Cholesky::new(k + m * sigma).ok_or(EigenError::NotDefinite)?.unpack();
-    let half = lower.solve_lower_triangular(m).ok_or(EigenError::NotDefinite)?;
-    let inverse = lower.solve_lower_triangular(&half.transpose()).ok_or(EigenError::NotDefinite)?;
-    let (mu, vectors) = symmetric(&inverse)?;
-    let mut shapes = lower.transpose().solve_upper_triangular(&vectors).ok_or(EigenError::NotDefinite)?;
-    let order: Vec<usize> = (0..n).rev().collect();
-    if mu.iter().any(|&m| m <= 0.0) {
+    let mut modes: Vec<(f64, Vec<f64>)> = Vec::with_capacity(n);
+    for unknowns in coupled_unknowns(k, m) {
+        let part = |a: &DMatrix<f64>| {
+            faer::Mat::from_fn(unknowns.len(), unknowns.len(), |i, j| a[(unknowns[i], unknowns[j])])
+        };
+        let (squares, shapes) = undamped_group(&part(k), &part(m), sigma)?;
+        for (square, shape) in squares.into_iter().zip(shapes.col_iter()) {
+            let mut all = vec![0.0; n];
+            unknowns.iter().zip(shape.iter()).for_each(|(&i, v)| all[i] = *v);
+            modes.push((square, all));
+        }
+    }
+    modes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let shapes = DMatrix::from_fn(n, n, |i, j| modes[j].1[i]);
+    Ok((modes.into_iter().map(|(square, _)| square).collect(), shapes))
+}
+
+/// Sets of unknowns without any entry between them, each ascending.
+fn coupled_unknowns(k: &DMatrix<f64>, m: &DMatrix<f64>) -> Vec<Vec<usize>> {
+    let n = k.nrows();
+    let mut left: Vec<bool> = vec![true; n];
+    let mut groups = Vec::new();
+    for first in 0..n {
+        if !std::mem::take(&mut left[first]) {
+            continue;
+        }
+        let mut group = vec![first];
+        let mut next = 0;
+        while next < group.len() {
+            let at = group[next];
+            for other in 0..n {
+                let entries = [k[(other, at)], k[(at, other)], m[(other, at)], m[(at, other)]];
+                if left[other] && entries.iter().any(|v| *v != 0.0) {
+                    left[other] = false;
+                    group.push(other);
+                }
+            }
+            next += 1;
+        }
+        group.sort_unstable();
+        groups.push(group);
+    }
+    groups
+}
+
+/// The modes of one set of coupled unknowns.
+fn undamped_group(
+    k: &faer::Mat<f64>,
+    m: &faer::Mat<f64>,
+    sigma: f64,
+) -> Result<(Vec<f64>, faer::Mat<f64>), EigenError> {
+    let n = k.nrows();
+    let shifted = faer::Mat::from_fn(n, n, |i, j| k[(i, j)] + sigma * m[(i, j)]);
+    if shifted.as_ref().col_iter().any(|column| column.iter().any(|v| !v.is_finite())) {
+        return Err(EigenError::NotFinite);
+    }
+    let factor = shifted.llt(faer::Side::Lower).map_err(|_| EigenError::NotDefinite)?;
+    let lower = factor.L();
+    // L⁻¹ M L⁻ᵀ.
+    let mut half = m.clone();
+    solve_lower_triangular_in_place(lower, half.as_mut(), Par::Seq);
+    let mut inverse = half.transpose().to_owned();
+    solve_lower_triangular_in_place(lower, inverse.as_mut(), Par::Seq);
+    let (mu, mut shapes) = symmetric_of(&inverse)?;
+    if mu.iter().any(|&mu| mu <= 0.0) {
         return Err(EigenError::NotDefinite);
     }
-    for (j, mut column) in shapes.column_iter_mut().enumerate() {
+    solve_upper_triangular_in_place(lower.transpose(), shapes.as_mut(), Par::Seq);
+    for (shape, mu) in shapes.as_mut().col_iter_mut().zip(&mu) {
         // zᵀ z = 1 gives φᵀ M φ = μ.
-        column /= mu[j].sqrt();
+        shape.iter_mut().for_each(|v| *v /= mu.sqrt());
     }
-    Ok((order.iter().map(|&i| 1.0 / mu[i] - sigma).collect(), shapes.select_columns(&order)))
+    Ok((mu.iter().map(|mu| 1.0 / mu - sigma).collect(), shapes))
 }
 
 /// All eigenpairs of (λ² M + λ C + K) φ = 0: λ and φ, in no given order.

@@ -176,7 +176,7 @@ fn recurrence(h: &DMatrix<f64>, theta: Complex64) -> Option<Vec<Complex64>> {
         }
     }
     let length = y.iter().map(Complex64::norm_sqr).sum::<f64>().sqrt();
-    let satisfied = next.norm() <= MAX_RESIDUAL * theta.norm() * length;
+    let satisfied = length.is_finite() && next.norm() <= MAX_RESIDUAL * theta.norm() * length;
     satisfied.then(|| y.into_iter().map(|v| v / length).collect())
 }
 

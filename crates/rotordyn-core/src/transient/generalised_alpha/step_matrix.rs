@@ -9,8 +9,8 @@ use rotordyn_linalg::panel::Panel;
 use serde::{Deserialize, Serialize};
 
 /// Largest (Ω − Ω_f) h for which matrices inverted at Ω_f are used, by their second-order expansion in Ω: the neglected
-/// terms are 1e-8 of the gyroscopic effect.
-const LARGEST_SPEED_CHANGE: f64 = 1e-4;
+/// terms are 1e-7 of the gyroscopic effect.
+const LARGEST_SPEED_CHANGE: f64 = 3e-4;
 /// Largest change of Ω̇ h²: the part of the effective matrix by Ω̇ is that of the inversion.
 const LARGEST_ACCELERATION_CHANGE: f64 = 1e-8;
 /// Largest number of steps N with the matrices of the speed in their middle, and the largest ¼ N² h² Ω̇: the change of
