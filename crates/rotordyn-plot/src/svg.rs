@@ -386,32 +386,3 @@ fn push_escaped(out: &mut String, text: &str) {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Half of black on white, whichever part is faint; where fill and edge overlap the edge hides the fill.
-    #[test]
-    fn faint_shapes_have_the_same_colours_with_and_without_a_layer() {
-        let black = Color(0, 0, 0);
-        let shapes = [Style::fill(black), Style::stroke(black, 8.0), Style::stroke(black, 8.0).filled(black)];
-        for (k, style) in shapes.into_iter().enumerate() {
-            let mut svg = Svg::new(40.0, 40.0);
-            svg.rect(10.0, 10.0, 20.0, 20.0, style.faint(0.5));
-            let text = svg.finish();
-            assert_eq!(text.contains(" opacity="), k == 2, "{text}");
-            let bytes = crate::png(&text).unwrap();
-            let picture = tiny_skia::Pixmap::decode_png(&bytes).unwrap();
-            let at = |x: f32, y: f32| {
-                picture.pixel((PNG_SCALE * x) as u32, (PNG_SCALE * y) as u32).map(|pixel| pixel.red())
-            };
-            let grey = |value: Option<u8>| value.is_some_and(|value| (126..=129).contains(&value));
-            // The middle, the inner half of the edge, the outer half, the page.
-            let seen = [at(20.0, 20.0), at(12.0, 20.0), at(8.0, 20.0), at(2.0, 2.0)];
-            let expected = [[true, true, false], [false, true, true], [true; 3]][k];
-            assert_eq!([grey(seen[0]), grey(seen[1]), grey(seen[2])], expected, "{k}: {seen:?}");
-            assert_eq!(seen[3], Some(255));
-        }
-    }
-}
