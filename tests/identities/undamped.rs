@@ -3,6 +3,10 @@
 use rotordyn::model::{Options, load};
 use rotordyn::study::Machine;
 
+/// Modal damping whose ratio is zero above 150 Hz.
+const DAMPED_BELOW: &str =
+    "\n[damping.modal]\nfrequency = [\"25 Hz\", \"150 Hz\", \"10 kHz\"]\nratio = [0.01, 0.0, 0.0]\n";
+
 /// The rotor of Nelson and McVaugh, whose modes far above the shift of the solver had real parts of 4e-9 |λ|, of either sign:
 /// thresholds of stability and modes "unstable from 12500 rpm on", of a machine that nothing excites.
 #[test]
@@ -31,4 +35,13 @@ fn rotors_without_damping_have_neither_growth_nor_thresholds() {
             }
         }
     }
+}
+
+#[test]
+fn modes_that_modal_damping_leaves_out_do_not_grow() {
+    let text = std::fs::read_to_string("models/nelson_mcvaugh.toml").unwrap() + DAMPED_BELOW;
+    let model = load("nelson.toml", text, &Options { variant: None, set: Vec::new() }).unwrap().model;
+    let study = model.studies.campbell.clone().unwrap();
+    let found = Machine::new(model).unwrap().campbell(&study).unwrap();
+    assert!(found.thresholds.is_empty(), "{:?}", found.thresholds.len());
 }

@@ -1,6 +1,6 @@
 //! Dense eigenvalue problems.
 
-use super::Complex64;
+use super::{BandLayout, Complex64, SparseMatrix};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{self, ComputeEigenvectors, EvdParams, SelfAdjointEvdParams};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
@@ -215,7 +215,10 @@ pub fn undamped(
 ) -> Result<(Vec<f64>, DMatrix<f64>), EigenError> {
     let n = k.nrows();
     let mut modes: Vec<(f64, Vec<f64>)> = Vec::with_capacity(n);
-    for unknowns in coupled_unknowns(k, m) {
+    let layout = BandLayout::new(&[&SparseMatrix::from_dense(k), &SparseMatrix::from_dense(m)]);
+    for group in layout.groups() {
+        let mut unknowns = group.to_vec();
+        unknowns.sort_unstable();
         let part = |a: &DMatrix<f64>| {
             faer::Mat::from_fn(unknowns.len(), unknowns.len(), |i, j| a[(unknowns[i], unknowns[j])])
         };
@@ -229,34 +232,6 @@ pub fn undamped(
     modes.sort_by(|a, b| a.0.total_cmp(&b.0));
     let shapes = DMatrix::from_fn(n, n, |i, j| modes[j].1[i]);
     Ok((modes.into_iter().map(|(square, _)| square).collect(), shapes))
-}
-
-/// Sets of unknowns without any entry between them, each ascending.
-fn coupled_unknowns(k: &DMatrix<f64>, m: &DMatrix<f64>) -> Vec<Vec<usize>> {
-    let n = k.nrows();
-    let mut left: Vec<bool> = vec![true; n];
-    let mut groups = Vec::new();
-    for first in 0..n {
-        if !std::mem::take(&mut left[first]) {
-            continue;
-        }
-        let mut group = vec![first];
-        let mut next = 0;
-        while next < group.len() {
-            let at = group[next];
-            for other in 0..n {
-                let entries = [k[(other, at)], k[(at, other)], m[(other, at)], m[(at, other)]];
-                if left[other] && entries.iter().any(|v| *v != 0.0) {
-                    left[other] = false;
-                    group.push(other);
-                }
-            }
-            next += 1;
-        }
-        group.sort_unstable();
-        groups.push(group);
-    }
-    groups
 }
 
 /// The modes of one set of coupled unknowns.

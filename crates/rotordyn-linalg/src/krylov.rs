@@ -1,7 +1,7 @@
 //! Lowest eigenvalues of the quadratic eigenvalue problem by shift-and-invert Arnoldi.
 //!
 //! Real arithmetic about a small real shift σ. Uncoupled groups of unknowns are searched separately, always
-//! extending the one with the lowest converged eigenvalue. Without gyroscopic effect the block size is two,
+//! extending the one with the lowest converged eigenvalue, until the wanted ones have converged. Without gyroscopic effect the block size is two,
 //! to find the double eigenvalues of an axisymmetric rotor at rest, which rotation splits.
 
 use super::arnoldi::{Arnoldi, Ritz};
@@ -74,8 +74,7 @@ pub fn lowest_eigenpairs_with(
         // A group's share of the modes is taken proportional to its number of unknowns.
         least.extend((count * least.part.order()).div_ceil(layout.size()), count, expected)?;
     }
-    // With a dense part every mode has damping, beside which round-off does not count.
-    let functional = dense.is_none().then(|| RayleighFunctional::new(matrices));
+    let functional = RayleighFunctional::new(matrices, dense);
     let mut pairs: Vec<QuadraticPair> = Vec::new();
     for (group, (unknowns, search)) in groups.iter().zip(&searches).enumerate() {
         for (value, coordinates) in &search.converged {
@@ -83,8 +82,7 @@ pub fn lowest_eigenpairs_with(
             for (&i, v) in unknowns.iter().zip(search.expand(coordinates)) {
                 vector[i] = v;
             }
-            let value = functional.as_ref().map_or(*value, |f| f.corrected(*value, &vector));
-            pairs.push(QuadraticPair { value, vector, group });
+            pairs.push(QuadraticPair { value: functional.corrected(*value, &vector), vector, group });
         }
     }
     pairs.sort_by(|a, b| a.value.norm().total_cmp(&b.value.norm()).then(a.group.cmp(&b.group)));

@@ -1,11 +1,13 @@
 //! The Rayleigh functional of the quadratic eigenvalue problem.
 
-use super::{Complex64, SparseMatrix};
+use super::{Complex64, GroupDense, SparseMatrix};
 
 /// Relative round-off of a sum of products, each with those of a row of the matrix.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 /// Relative correction of a value beyond which its vector is in doubt.
 const MAX_CORRECTION: f64 = 1e-6;
+/// |Re λ|/|λ| above which round-off does not count: a dense part of C, whose products are expensive, is left alone there.
+const DAMPED: f64 = 1e-6;
 
 /// λ of a vector φ with φᴴ (λ² M + λ C + K) φ = 0, M symmetric.
 ///
@@ -15,13 +17,15 @@ const MAX_CORRECTION: f64 = 1e-6;
 /// Source: Tisseur and Meerbergen, The quadratic eigenvalue problem, SIAM Review 43, 2001, section 3.
 pub(super) struct RayleighFunctional<'a> {
     matrices: [&'a SparseMatrix; 3],
+    /// Further part of C.
+    dense: Option<&'a GroupDense>,
     /// ½ (K − Kᵀ).
     circulatory: SparseMatrix,
 }
 
 impl<'a> RayleighFunctional<'a> {
-    pub fn new(matrices: [&'a SparseMatrix; 3]) -> Self {
-        Self { matrices, circulatory: matrices[2].skew_part() }
+    pub fn new(matrices: [&'a SparseMatrix; 3], dense: Option<&'a GroupDense>) -> Self {
+        Self { matrices, dense, circulatory: matrices[2].skew_part() }
     }
 
     /// λ after one step of Newton's method.
@@ -30,7 +34,14 @@ impl<'a> RayleighFunctional<'a> {
     /// only by what is more than that. The imaginary part has none, since a symmetric K does not contribute.
     pub fn corrected(&self, value: Complex64, vector: &[Complex64]) -> Complex64 {
         let [m, c, k] = self.matrices;
-        let [inertia, damping] = [m, c].map(|matrix| matrix.form(vector));
+        let [inertia, mut damping] = [m, c].map(|matrix| matrix.form(vector));
+        if let Some(dense) = self.dense {
+            if value.re.abs() > DAMPED * value.norm() {
+                return value;
+            }
+            let image = dense.mul_complex(vector);
+            damping += vector.iter().zip(&image).map(|(v, i)| v.conj() * i).sum::<Complex64>();
+        }
         let stiffness = Complex64::new(k.form(vector).re, self.circulatory.form(vector).im);
         let rest = value * value * inertia + value * damping + stiffness;
         let slope = 2.0 * value * inertia + damping;
@@ -70,7 +81,7 @@ mod tests {
         // Circular whirl (1, −j): m λ² + (d − j g) λ + (k − j s) = 0.
         for [g, d, s] in [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [3.0, 0.4, 0.0], [3.0, 0.4, 5.0]] {
             let matrices = whirling(g, d, s);
-            let functional = RayleighFunctional::new(matrices.each_ref());
+            let functional = RayleighFunctional::new(matrices.each_ref(), None);
             let half = Complex64::new(d, -g) / 4.0;
             let exact = -half + (half * half - Complex64::new(800.0, -s) / 2.0).sqrt();
             let exact = if exact.im > 0.0 { exact } else { -2.0 * half - exact };
@@ -81,7 +92,7 @@ mod tests {
             };
             assert!(error(1e-8, 0.0) < 1e-14, "{g} {d} {s}: {:e}", error(1e-8, 0.0));
             assert!(error(0.0, 1e-4) < 1e-8, "{g} {d} {s}: {:e}", error(0.0, 1e-4));
-            // A vector of another mode is no reason to leave the value.
+            // Too far from the value of the vector: it stays.
             assert!(error(1e-3, 0.0) > 1e-4);
         }
     }
@@ -114,7 +125,8 @@ mod tests {
         }
         let k = k.build();
         let vector = [Complex64::new(1.0, 0.1), Complex64::new(1.0 + 1e-10, 0.1 - 3e-11)];
-        let value = RayleighFunctional::new([&m, &c, &k]).corrected(Complex64::new(1e-8, 20.0), &vector);
+        let value =
+            RayleighFunctional::new([&m, &c, &k], None).corrected(Complex64::new(1e-8, 20.0), &vector);
         assert!(value.re.abs() < 1e-16, "{value}");
     }
 }

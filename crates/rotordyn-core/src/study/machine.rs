@@ -284,11 +284,12 @@ impl Machine {
             return machine.campbell(study);
         }
         self.check_tables("campbell", &study.speeds)?;
-        let count = EVALUATIONS_PER_SPEED * study.speeds.len();
-        let path = self.equilibrium_path(&study.speeds, count).filter(|_| study.speed_dependent_bearings);
-        let tangents = |speed| match study.speed_dependent_bearings {
-            true => self.tangents_on(path.as_ref(), speed),
-            false => self.tangents(speed, false),
+        let follows = study.speed_dependent_bearings;
+        let path = || self.equilibrium_path(&study.speeds, EVALUATIONS_PER_SPEED * study.speeds.len());
+        let path = follows.then(path).flatten();
+        let tangents = |speed| match &path {
+            Some(path) => self.tangents_on(Some(path), speed),
+            None => self.tangents(speed, follows),
         };
         let diagram = campbell::campbell(&self.assembly, &study.speeds, study.modes, &tangents)?;
         let crossings = critical_speed::crossings(&self.assembly, &diagram, &study.orders, &tangents)?;

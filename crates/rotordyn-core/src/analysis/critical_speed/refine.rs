@@ -44,7 +44,7 @@ pub(super) fn eigenpair_of(system: &LinearSystem, value: Complex64) -> Option<Ei
     // At λ itself the matrix may be singular to the last bit.
     let shift = value * (1.0 + KNOWN_SHIFT);
     lu.refactor(|k| shift * shift * m[k] + shift * d[k] + s[k]).ok()?;
-    // All unknowns are excited, whatever their group. The mass matrix gives forces from displacements and rotations alike.
+    // Inertia forces of a motion of all unknowns, so that every group is excited.
     let start: Vec<f64> = (0..system.layout.size()).map(|i| 1.0 + 0.5 * (i as f64).sin()).collect();
     let mut shape: Vec<Complex64> = system.mass.mul(&start).into_iter().map(Complex64::from).collect();
     for _ in 0..2 {
