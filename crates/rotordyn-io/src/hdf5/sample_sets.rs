@@ -10,8 +10,10 @@ use crate::error::Error;
 use hdf5::Dataset;
 use hdf5::plist::dataset_create::{AllocTime, FillTime};
 
-/// Samples per chunk of the data sets of a run that has ended.
+/// Samples per chunk of the compressed data sets of a run that has ended.
 const CHUNK_SAMPLES: usize = 4096;
+/// Samples copied at a time: whole chunks.
+const BLOCK_SAMPLES: usize = 16 * CHUNK_SAMPLES;
 /// Chunks in memory of every one of them while it is written, each of them once and whole \[bytes\].
 const WRITE_CACHE: usize = 2 * 8 * CHUNK_SAMPLES;
 
@@ -61,29 +63,32 @@ pub fn copy_run(from: &Store, to: &Store, root: &str, state: &str) -> Result<(),
     let samples = recorded_samples(from, root)?;
     let begin = samples.saturating_sub(TRIED_VALUES) / 2;
     let middle = begin..samples.min(begin + TRIED_VALUES);
-    let growable = |name: &str, attributes: &[(&str, Attribute)]| {
+    // Only what is compressed needs chunks.
+    let whole = |name: &str, attributes: &[(&str, Attribute)]| {
         let (places, whole_first) = CACHE_PLACES;
-        let builder = to.file.new_dataset::<f64>().obj_track_times(false).chunk(CHUNK_SAMPLES);
-        let builder = builder.chunk_cache(places, WRITE_CACHE, whole_first);
-        let source = from.file.dataset(name)?;
-        let part = source.read_slice_1d::<f64, _>(middle.clone())?;
-        let builder =
-            if is_worthwhile(part.into_iter()) { builder.shuffle().deflate(DEFLATE_LEVEL) } else { builder };
-        let dataset = builder.shape(0..).create(name)?;
+        let builder = to.file.new_dataset::<f64>().obj_track_times(false);
+        let part = from.file.dataset(name)?.read_slice_1d::<f64, _>(middle.clone())?;
+        let builder = if is_worthwhile(part.into_iter()) {
+            let builder =
+                builder.chunk(CHUNK_SAMPLES.min(samples)).chunk_cache(places, WRITE_CACHE, whole_first);
+            builder.shuffle().deflate(DEFLATE_LEVEL)
+        } else {
+            builder.fill_time(FillTime::Never)
+        };
+        let dataset = builder.shape(samples).create(name)?;
         attributes.iter().try_for_each(|(name, value)| attribute::set(&dataset, name, value))?;
         Ok(dataset)
     };
-    let sets = create(to, root, &RunFormat { channels: &channels, sample_rate, start }, &growable)?;
+    let sets = create(to, root, &RunFormat { channels: &channels, sample_rate, start }, &whole)?;
     let paths = set_paths(root, &names);
     let sources: Vec<Dataset> = paths
         .iter()
         .map(|path| from.map_read_error(path, from.file.dataset(path)))
         .collect::<Result<_, _>>()?;
-    let copied = (0..samples).step_by(CHUNK_SAMPLES).try_for_each(|begin| {
-        let end = samples.min(begin + CHUNK_SAMPLES);
-        sources.iter().zip(&sets).try_for_each(|(source, set)| {
-            let block = source.read_slice_1d::<f64, _>(begin..end)?;
-            set.resize(end).and_then(|()| set.write_slice(&block, begin..end))
+    let copied = sources.iter().zip(&sets).try_for_each(|(source, set)| {
+        (0..samples).step_by(BLOCK_SAMPLES).try_for_each(|begin| {
+            let end = samples.min(begin + BLOCK_SAMPLES);
+            set.write_slice(&source.read_slice_1d::<f64, _>(begin..end)?, begin..end)
         })
     });
     to.map_write_error(&format!("{root}/channels"), to.file.flush_open(sets, copied))?;
