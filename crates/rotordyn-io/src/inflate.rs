@@ -34,12 +34,22 @@ pub fn zlib(bytes: &[u8], size: usize, out: &mut Vec<u8>) -> std::io::Result<()>
     Ok(())
 }
 
-/// Number of bytes of a zlib stream of the given ones, with a level from 0 to 9.
-pub fn deflated_size(bytes: &[u8], level: u8) -> usize {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(level.into()));
-    // Writing to memory does not fail.
-    let stream = encoder.write_all(bytes).and_then(|()| encoder.finish());
-    stream.map_or(bytes.len(), |stream| stream.len())
+/// Finds how far bytes can be compressed; its memory serves every trial.
+#[derive(Debug)]
+pub struct CompressionTrial(ZlibEncoder<Vec<u8>>);
+
+impl CompressionTrial {
+    /// `level`: from 0 to 9.
+    pub fn new(level: u8) -> Self {
+        Self(ZlibEncoder::new(Vec::new(), Compression::new(level.into())))
+    }
+
+    /// Number of bytes of a zlib stream of the given ones.
+    pub fn size(&mut self, bytes: &[u8]) -> usize {
+        // Writing to memory does not fail.
+        let stream = self.0.write_all(bytes).and_then(|()| self.0.reset(Vec::new()));
+        stream.map_or(bytes.len(), |stream| stream.len())
+    }
 }
 
 /// CRC-32 of bytes, as in ZIP archives.

@@ -1,6 +1,8 @@
 //! Which data sets are worth compressing: the digits of a vibration hardly repeat.
 
-use crate::inflate::deflated_size;
+use std::cell::RefCell;
+
+use crate::inflate::CompressionTrial;
 
 /// Deflate (gzip) level, 1 to 9: levels above 1 hardly reduce shuffled samples further.
 pub const DEFLATE_LEVEL: u8 = 1;
@@ -10,12 +12,17 @@ pub const TRIED_VALUES: usize = 1024;
 /// them takes longer than all else that writes them.
 const WORTHWHILE: f64 = 0.6;
 
+thread_local! {
+    static TRIAL: RefCell<CompressionTrial> = RefCell::new(CompressionTrial::new(DEFLATE_LEVEL));
+}
+
 /// Whether numbers like the given ones are worth compressing, shuffled as HDF5 does.
 pub fn is_worthwhile(values: impl ExactSizeIterator<Item = f64>) -> bool {
     let skipped = values.len().saturating_sub(TRIED_VALUES) / 2;
     let bytes: Vec<[u8; 8]> = values.skip(skipped).take(TRIED_VALUES).map(f64::to_le_bytes).collect();
     let shuffled: Vec<u8> = (0..8).flat_map(|k| bytes.iter().map(move |bytes| bytes[k])).collect();
-    (deflated_size(&shuffled, DEFLATE_LEVEL) as f64) < WORTHWHILE * shuffled.len() as f64
+    let size = TRIAL.with_borrow_mut(|trial| trial.size(&shuffled));
+    (size as f64) < WORTHWHILE * shuffled.len() as f64
 }
 
 #[cfg(test)]
