@@ -58,8 +58,12 @@ fn rigid_body_modes(assembly: &Assembly, stiffness: &SparseMatrix) -> Result<Vec
 /// Shapes of the modes below [`RIGID_BODY_MAX_FREQUENCY`], by subspace iteration with (K + M)⁻¹ M, whose eigenvalues are
 /// 1/(ω² + 1): near 1 for a rigid-body mode, near 0 for an elastic one.
 fn zero_frequency_shapes(mass: &SparseMatrix, stiffness: &SparseMatrix) -> Result<Vec<Vec<f64>>, String> {
-    /// After these an elastic mode of 10 rad/s is reduced by 1e-16; the Ritz values separate slower ones.
-    const STEPS: usize = 8;
+    /// After these an elastic mode of 10 rad/s is reduced by 1e-6, and by 1e-16; the Ritz values separate slower ones.
+    const STEPS: [usize; 2] = [3, 5];
+    /// The first ones are enough if the squares of all frequencies are this much smaller or larger than the limit.
+    const CLEAR: f64 = 1e4;
+    let limit = RIGID_BODY_MAX_FREQUENCY * RIGID_BODY_MAX_FREQUENCY;
+    let is_clear = |square: &f64| square.abs() < limit / CLEAR || *square > limit * CLEAR;
     let size = mass.rows();
     let layout = BandLayout::new(&[mass, stiffness]);
     let values = layout.scatter(stiffness).iter().zip(layout.scatter(mass)).map(|(k, m)| k + m).collect();
@@ -69,18 +73,22 @@ fn zero_frequency_shapes(mass: &SparseMatrix, stiffness: &SparseMatrix) -> Resul
         // Start vectors with a component in every mode.
         let start = |j: usize| (0..size).map(move |k| ((1.0 + k as f64) * (1.0 + 0.37 * j as f64)).sin());
         let mut basis: Vec<Vec<f64>> = (0..width).map(|j| start(j).collect()).collect();
-        for _ in 0..STEPS {
-            for x in &mut basis {
-                *x = mass.mul(x);
-                factors.solve(x);
+        let mut iterate = |steps: usize| {
+            for _ in 0..steps {
+                for x in &mut basis {
+                    *x = mass.mul(x);
+                    factors.solve(x);
+                }
+                orthonormalise(mass, &mut basis);
             }
-            orthonormalise(mass, &mut basis);
-        }
-        let projected = |matrix: &SparseMatrix| {
-            DMatrix::from_fn(basis.len(), basis.len(), |i, j| dot(&basis[i], &matrix.mul(&basis[j])))
+            let images: Vec<Vec<f64>> = basis.iter().map(|x| stiffness.mul(x)).collect();
+            let projected = DMatrix::from_fn(basis.len(), basis.len(), |i, j| dot(&basis[i], &images[j]));
+            eigen::symmetric(&projected).map_err(|e| e.to_string())
         };
-        let (squares, turns) = eigen::symmetric(&projected(stiffness)).map_err(|e| e.to_string())?;
-        let limit = RIGID_BODY_MAX_FREQUENCY * RIGID_BODY_MAX_FREQUENCY;
+        let (mut squares, mut turns) = iterate(STEPS[0])?;
+        if !squares.iter().all(is_clear) {
+            (squares, turns) = iterate(STEPS[1])?;
+        }
         let rigid: Vec<usize> = (0..squares.len()).filter(|&k| squares[k].abs() < limit).collect();
         if rigid.len() < width || width == size {
             let shape = |k: usize| {
