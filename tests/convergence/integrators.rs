@@ -48,6 +48,7 @@ fn end(reduction: &Reduction, integrator: Integrator, steps: usize) -> DVector<f
         defect_step: f64::INFINITY,
         sample_rate: 1.0 / DURATION,
         duration: DURATION,
+        energy_balance: true,
     };
     let mut last = v.clone();
     let report =
@@ -107,8 +108,14 @@ fn fitted_inertias_keep_the_exact_frequencies() {
     frequencies.iter().enumerate().for_each(|(k, w)| v[k] = 1e-6 * w);
     let largest_error = |integrator| {
         let mut worst = 0.0f64;
-        let settings =
-            Settings { integrator, step, defect_step: f64::INFINITY, sample_rate: 1.0 / step, duration };
+        let settings = Settings {
+            integrator,
+            step,
+            defect_step: f64::INFINITY,
+            sample_rate: 1.0 / step,
+            duration,
+            energy_balance: true,
+        };
         let start = system.initial_state(reduction.equilibrium.clone(), v.clone()).unwrap();
         let report = run(system, start, &settings, |sample| {
             for (k, w) in frequencies.iter().enumerate() {

@@ -38,6 +38,7 @@ fn end(reduction: &Reduction, integrator: Integrator, steps: usize) -> nalgebra:
         defect_step: f64::INFINITY,
         sample_rate: 1.0 / DURATION,
         duration: DURATION,
+        energy_balance: true,
     };
     let mut last = v.clone();
     let start = reduction.system.initial_state(reduction.equilibrium.clone(), v).unwrap();

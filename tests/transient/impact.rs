@@ -78,6 +78,7 @@ fn small_hit_gives_the_linear_frf() {
         defect_step: f64::INFINITY,
         sample_rate: RATE,
         duration: DURATION,
+        energy_balance: true,
     };
     let state =
         reduction.system.initial_state(reduction.equilibrium.clone(), &reduction.equilibrium * 0.0).unwrap();

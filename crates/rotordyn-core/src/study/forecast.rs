@@ -382,6 +382,7 @@ fn step_time(reduction: &Reduction, state: State, integrator: Integrator, step: 
         defect_step: f64::INFINITY,
         sample_rate: 1.0 / step,
         duration: TIMED_STEPS * step,
+        energy_balance: true,
     };
     let start = Instant::now();
     let report = run(&reduction.system, state, &settings, |_| {

@@ -410,6 +410,7 @@ impl Machine {
             defect_step: study.defect_step,
             sample_rate: study.sample_rate,
             duration: self.model.profile.duration(),
+            energy_balance: true,
         }
     }
 

@@ -28,6 +28,8 @@ const COMPARED: usize = 4;
 /// The same with half the step.
 const SHORT_LEAD: usize = 1;
 const SHORT_COMPARED: usize = 2;
+/// Samples of a channel read at a time.
+const VALUES_AT_ONCE: usize = 1 << 16;
 /// Fewest samples of an interval, and fewest cycles of an order in the stretch.
 const FEWEST_SAMPLES: usize = 16;
 const FEWEST_CYCLES: f64 = 4.0;
@@ -113,6 +115,7 @@ impl Machine {
             defect_step: study.defect_step * ratio,
             sample_rate: study.sample_rate / thinning as f64,
             duration: time_end - time_begin,
+            energy_balance: false,
         };
         let skipped = first - begin;
         let (mut angle, mut values) = (Vec::new(), vec![Vec::new(); probes]);
@@ -147,20 +150,22 @@ impl Machine {
             let of_unit = channels.iter().zip(&records).filter(|(channel, _)| channel.unit == unit);
             of_unit.map(|(_, record)| mean_square(record).sqrt()).fold(0.0, f64::max)
         };
+        let levels = |angle: &[f64], records: &[Vec<f64>]| -> Vec<Vec<f64>> {
+            let window = AngleWindow::new(angle);
+            orders.iter().map(|order| window.line_levels(records, *order)).collect()
+        };
+        let (own_levels, other_levels) = (levels(&own_angle, &records), levels(&angle, &values));
         let mut lines = Vec::new();
-        for ((channel, own_values), other) in channels.iter().zip(&records).zip(&values) {
-            let vibration = variance(own_values).sqrt();
+        for (k, (channel, record)) in channels.iter().zip(&records).enumerate() {
+            let vibration = variance(record).sqrt();
             if vibration <= ROUND_OFF * largest_with(&channel.unit) {
                 continue;
             }
-            let level = |angle: &[f64], values: &[f64]| -> Vec<f64> {
-                orders.iter().map(|order| line_level(angle, values, *order)).collect()
-            };
-            let [own, other] = [level(&own_angle, own_values), level(&angle, other)];
-            let largest = own.iter().copied().fold(0.0, f64::max);
+            let largest = own_levels.iter().map(|levels| levels[k]).fold(0.0, f64::max);
             let least = (SMALLEST_SHARE * largest).max(SMALLEST_SHARE_OF_VIBRATION * vibration);
             let named = self.order_lines(&orders).into_iter();
-            for (line, (level, other_level)) in named.zip(own.into_iter().zip(other)) {
+            for (line, (own, other)) in named.zip(own_levels.iter().zip(&other_levels)) {
+                let (level, other_level) = (own[k], other[k]);
                 if level > least {
                     let error = (other_level - level) / level * factor;
                     let channel = channel.name.clone();
@@ -204,10 +209,15 @@ fn largest_response(
 ) -> Result<Option<usize>, SeriesError> {
     let angles = (0..=intervals).map(|k| history.angle.at(k * every)).collect::<Result<Vec<_>, _>>()?;
     let moves = |k: &usize| angles[k + 1] != angles[*k];
+    let at_once = (VALUES_AT_ONCE / every).max(1);
     let mut sums = vec![0.0; intervals];
     for channel in &history.channels[..probes] {
-        let parts = (0..intervals).map(|k| Ok(variance(&channel.values.read(k * every..(k + 1) * every)?)));
-        let variances = parts.collect::<Result<Vec<f64>, SeriesError>>()?;
+        let mut variances = Vec::with_capacity(intervals);
+        for first in (0..intervals).step_by(at_once) {
+            let end = (first + at_once).min(intervals);
+            let values = channel.values.read(first * every..end * every)?;
+            variances.extend(values.chunks_exact(every).map(variance));
+        }
         let largest = variances.iter().copied().fold(0.0, f64::max);
         if largest > 0.0 {
             sums.iter_mut().zip(&variances).for_each(|(sum, v)| *sum += v / largest);
@@ -227,26 +237,49 @@ fn mean_square(values: &[f64]) -> f64 {
 
 /// RMS level of an order in a record over the shaft angle, with a Hann window over the whole angle.
 pub(super) fn line_level(angle: &[f64], values: &[f64], order: f64) -> f64 {
-    let (start, span) = match angle {
-        [first, .., last] if last != first => (*first, last - first),
-        _ => return 0.0,
-    };
-    // Weights of the trapezoidal rule over the angle times the window.
-    let weight = |k: usize| {
-        let before = if k == 0 { 0.0 } else { angle[k] - angle[k - 1] };
-        let after = angle.get(k + 1).map_or(0.0, |next| next - angle[k]);
-        (PI * (angle[k] - start) / span).sin().powi(2) * 0.5 * (before + after)
-    };
-    let weights: Vec<f64> = (0..angle.len()).map(weight).collect();
-    let total: f64 = weights.iter().sum();
-    let mean = weights.iter().zip(values).map(|(w, v)| w * v).sum::<f64>() / total;
-    let (mut re, mut im) = (0.0, 0.0);
-    for ((w, v), angle) in weights.iter().zip(values).zip(angle) {
-        let (sin, cos) = (order * (angle - start)).sin_cos();
-        re += w * (v - mean) * cos;
-        im -= w * (v - mean) * sin;
+    AngleWindow::new(angle).line_levels(&[values], order)[0]
+}
+
+/// A Hann window over the shaft angle of some records.
+struct AngleWindow<'a> {
+    angle: &'a [f64],
+    /// Weights of the trapezoidal rule over the angle times the window; none if the shaft does not turn.
+    weights: Vec<f64>,
+}
+
+impl<'a> AngleWindow<'a> {
+    fn new(angle: &'a [f64]) -> Self {
+        let (start, span) = match angle {
+            [first, .., last] if last != first => (*first, last - first),
+            _ => return Self { angle, weights: Vec::new() },
+        };
+        let weight = |k: usize| {
+            let before = if k == 0 { 0.0 } else { angle[k] - angle[k - 1] };
+            let after = angle.get(k + 1).map_or(0.0, |next| next - angle[k]);
+            (PI * (angle[k] - start) / span).sin().powi(2) * 0.5 * (before + after)
+        };
+        Self { angle, weights: (0..angle.len()).map(weight).collect() }
     }
-    std::f64::consts::SQRT_2 * re.hypot(im) / total.abs()
+
+    /// RMS level of an order in every record; 0 if the shaft does not turn.
+    fn line_levels<R: AsRef<[f64]>>(&self, records: &[R], order: f64) -> Vec<f64> {
+        if self.weights.is_empty() {
+            return vec![0.0; records.len()];
+        }
+        let wave = |angle: &f64| (order * (angle - self.angle[0])).sin_cos();
+        let waves: Vec<(f64, f64)> = self.angle.iter().map(wave).collect();
+        let total: f64 = self.weights.iter().sum();
+        let level = |values: &[f64]| {
+            let mean = self.weights.iter().zip(values).map(|(w, v)| w * v).sum::<f64>() / total;
+            let (mut re, mut im) = (0.0, 0.0);
+            for ((w, v), (sin, cos)) in self.weights.iter().zip(values).zip(&waves) {
+                re += w * (v - mean) * cos;
+                im -= w * (v - mean) * sin;
+            }
+            std::f64::consts::SQRT_2 * re.hypot(im) / total.abs()
+        };
+        records.iter().map(|record| level(record.as_ref())).collect()
+    }
 }
 
 #[cfg(test)]

@@ -24,6 +24,8 @@ pub struct Settings {
     pub sample_rate: f64,
     /// Duration of the run \[s\]: to this time, if it starts at t = 0.
     pub duration: f64,
+    /// Whether to follow the energy balance; else the energies given are those at the start.
+    pub energy_balance: bool,
 }
 
 /// Data passed to the observer at every sampling instant.
@@ -233,13 +235,14 @@ pub fn resume(
     run.perform(system, &grid, index + 1, observe)
 }
 
-/// Times of a run: `calls` of the stepper of length `step` between two samples.
+/// Times of a run, and what is followed: `calls` of the stepper of length `step` between two samples.
 struct Grid {
     interval: f64,
     calls: usize,
     step: f64,
     /// Index of the last sample.
     samples: usize,
+    energy_balance: bool,
 }
 
 impl Grid {
@@ -247,7 +250,8 @@ impl Grid {
         let interval = 1.0 / settings.sample_rate;
         let substeps = (interval / settings.step * (1.0 - 1e-12)).ceil().max(1.0) as usize;
         let samples = (settings.duration * settings.sample_rate + 1e-9).floor() as usize;
-        Self { interval, calls: substeps, step: interval / substeps as f64, samples }
+        let step = interval / substeps as f64;
+        Self { interval, calls: substeps, step, samples, energy_balance: settings.energy_balance }
     }
 }
 
@@ -304,7 +308,9 @@ impl Run {
                 end = End::Failed(error);
                 break;
             }
-            self.balance.update_stored_energy(system, &self.state);
+            if grid.energy_balance {
+                self.balance.update_stored_energy(system, &self.state);
+            }
             seen = index + 1;
             let Self { start, state, stepper, defects, balance, means } = &self;
             let run = RunParts { start: *start, last: grid.samples, stepper, defects, balance, means };
@@ -367,7 +373,13 @@ impl Run {
             for p in 1..=parts {
                 let end = *start + (steps_before + p as f64 / parts as f64) * step;
                 stepper.advance(system, state, part, end, &mut |state, taken| {
-                    finish_step(system, state, balance);
+                    if grid.energy_balance {
+                        balance.update(system, state);
+                    }
+                    if let Some(drive) = &system.drive {
+                        drive.recentre(state);
+                        balance.restart_from(system, state);
+                    }
                     means.add(system, state, taken / grid.interval);
                     Ok(())
                 })?;
@@ -445,13 +457,5 @@ impl IntervalMeans {
         for ((sum, before), now) in self.sums.iter_mut().zip(&self.before).zip(&self.now) {
             *sum += 0.5 * share * (before + now);
         }
-    }
-}
-
-fn finish_step(system: &System, state: &mut State, balance: &mut EnergyBalance) {
-    balance.update(system, state);
-    if let Some(drive) = &system.drive {
-        drive.recentre(state);
-        balance.restart_from(system, state);
     }
 }
