@@ -11,7 +11,7 @@ use super::system::{State, System};
 use super::torque::DriveEnergy;
 use crate::model::Spin;
 use rotordyn_bearing::{Reaction, Rotation};
-use rotordyn_linalg::dot;
+use rotordyn_linalg::dot::dot_in_sixteens;
 
 /// Energy balance \[J\]: kinetic + strain + contact = start + work + drive + parametric − losses + residual.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
@@ -125,8 +125,14 @@ impl EnergyBalance {
     /// Adds one step: work of the mean load along the step's displacement, powers by the trapezoidal rule.
     pub fn update(&mut self, system: &System, state: &State) {
         let step = state.time - self.time;
-        self.moved.copy_from(&state.x);
-        self.moved -= &self.x;
+        // Slices of one length, for vector instructions.
+        let size = state.x.len();
+        let [x0, x1, v1] = [&self.x, &state.x, &state.v].map(|y| &y.as_slice()[..size]);
+        let [moved, v] = [&mut self.moved, &mut self.v].map(|y| &mut y.as_mut_slice()[..size]);
+        for k in 0..size {
+            moved[k] = x1[k] - x0[k];
+            v[k] = 0.5 * (v[k] + v1[k]);
+        }
         if let (Some(drive), Some(rotation)) = (&system.drive, &mut self.rotation) {
             self.moved.axpy(rotation.turned(state), &drive.rigid_rotation, 1.0);
             let done = rotation.step(drive, system, state, &self.moved, step);
@@ -136,14 +142,14 @@ impl EnergyBalance {
         }
         self.energy.work += self.work_of_loads(system, state) + self.work_of_rotation(system, state);
         // C (v₀ + v₁)/2 along the path.
-        self.v += &state.v;
-        self.v *= 0.5;
-        self.linear.fill(0.0);
         let n = system.structure();
-        system.panels.damping.mul_add(&self.v.as_slice()[..n], &mut self.linear.as_mut_slice()[..n]);
+        let damping = &mut self.linear.as_mut_slice()[..n];
+        damping.fill(0.0);
+        system.panels.damping.mul_add(&self.v.as_slice()[..n], damping);
+        let lost = dot_in_sixteens(damping, &self.moved.as_slice()[..n]);
         let at_defects = self.jumps_at_defects(system, state);
         let e = &mut self.energy;
-        e.damping_loss += self.linear.dot(&self.moved);
+        e.damping_loss += lost;
         let now = powers(system, state);
         e.parametric += 0.5 * step * (self.powers[0] + now[0]);
         e.parametric += energy_by_speed_change(system, state, &self.rotations);
@@ -207,7 +213,7 @@ impl EnergyBalance {
             now.push(factor);
             let twice = before + factor;
             if twice != 0.0 {
-                sum += 0.5 * twice * vector.dot(&self.moved);
+                sum += 0.5 * twice * dot_in_sixteens(vector.as_slice(), self.moved.as_slice());
             }
         }
         self.factors.swap(0, 1);
@@ -238,7 +244,7 @@ impl EnergyBalance {
         let load = &mut self.linear.as_mut_slice()[..n];
         load.fill(0.0);
         panels.effective.mul_add(&self.scratch, load);
-        self.linear.rows(0, n).dot(&self.moved.rows(0, n))
+        dot_in_sixteens(load, &self.moved.as_slice()[..n])
     }
 
     /// Continues from a state whose coordinates were changed between steps (recentring of a torque drive).
@@ -263,7 +269,7 @@ impl EnergyBalance {
         let pull = &mut self.linear.as_mut_slice()[..system.structure()];
         pull.fill(0.0);
         system.panels.stiffness.mul_add(x, pull);
-        e.strain = 0.5 * dot(pull, x);
+        e.strain = 0.5 * dot_in_sixteens(pull, x);
         e.contact = state.reactions.iter().map(|r| r.elastic_energy).sum();
     }
 }

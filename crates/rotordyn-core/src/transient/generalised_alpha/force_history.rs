@@ -6,6 +6,14 @@ use serde::{Deserialize, Serialize};
 const DEGREE: usize = 4;
 /// Longest step to which forces are extrapolated, over the last step.
 const LARGEST_GROWTH: f64 = 16.0;
+/// Lagrange's weights for equal steps, by the number of states before the present one.
+const EQUAL_STEPS: [(f64, [f64; DEGREE]); DEGREE + 1] = [
+    (1.0, [0.0; DEGREE]),
+    (2.0, [-1.0, 0.0, 0.0, 0.0]),
+    (3.0, [-3.0, 1.0, 0.0, 0.0]),
+    (4.0, [-6.0, 4.0, -1.0, 0.0]),
+    (5.0, [-10.0, 10.0, -5.0, 1.0]),
+];
 
 /// Forces at the starts of the last steps, the last one first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,6 +51,9 @@ impl ForceHistory {
     /// Lagrange's weights of the present state and of those before.
     fn weights(&self, step: f64) -> (f64, [f64; DEGREE]) {
         let count = if step > LARGEST_GROWTH * self.steps[0] { 0 } else { self.count };
+        if self.steps[..count].iter().all(|length| *length == step) {
+            return EQUAL_STEPS[count];
+        }
         // How long ago the states were.
         let mut ages = [0.0; DEGREE];
         let mut age = 0.0;
@@ -80,7 +91,7 @@ mod tests {
         let force = |t: f64| 2.0 - 3.0 * t + 0.7 * t * t - 0.2 * t * t * t + 0.03 * t.powi(4);
         let mut history = ForceHistory::new(1);
         let (mut time, mut out) = (0.0, [0.0]);
-        for (k, step) in [1.0, 1.0, 0.25, 0.25, 1.5, 3.0, 0.5].into_iter().enumerate() {
+        for (k, step) in [1.0, 1.0, 0.25, 0.25, 1.5, 3.0, 0.5, 0.5, 0.5, 0.5, 0.5].into_iter().enumerate() {
             history.extrapolate(&[force(time)], step, &mut out);
             if k == 1 {
                 assert!((out[0] - (force(1.0) + force(1.0) - force(0.0))).abs() < 1e-13);

@@ -20,6 +20,9 @@ const DEFLECTION: f64 = 1e-7;
 /// The same of an old Jacobian, which leaves a part of the change itself: that error is measured, the one above is a bound
 /// which contacts under load keep far below.
 const OLD_JACOBIAN_ERROR: f64 = 1e-6;
+/// It may also be this part of the first change, of what the forces extrapolated from the last steps miss: the error of the step
+/// itself is a hundred times that.
+const PART_OF_FIRST_CHANGE: f64 = 1e-3;
 const MAX_ITERATIONS: usize = 25;
 
 /// The interface problem d = d̄ + b u, ḋ = ḋ̄ + c u, u = Y f(d, ḋ) with Y = W S⁻¹ Wᵀ and the step's gains b and c, and
@@ -30,7 +33,8 @@ pub(super) struct InterfaceNewton {
     /// Displacement d̄ and velocity ḋ̄ at the end of the step without bearing forces in it.
     free_d: Vec<f64>,
     free_d_rate: Vec<f64>,
-    free_acceleration: Vec<f64>,
+    /// Coordinates of that motion.
+    free: DVector<f64>,
     /// Acceleration u of the rows by the bearing forces, the residual u − Y f, and the correction.
     acceleration: Vec<f64>,
     residual: Vec<f64>,
@@ -57,7 +61,7 @@ impl InterfaceNewton {
         Self {
             free_d: vec![0.0; places],
             free_d_rate: vec![0.0; places],
-            free_acceleration: vec![0.0; places],
+            free: DVector::zeros(system.size()),
             acceleration: vec![0.0; rows],
             residual: vec![0.0; rows],
             correction: vec![0.0; rows],
@@ -75,12 +79,16 @@ impl InterfaceNewton {
 
     /// d̄ = W (x̂ + b a) and ḋ̄ = W (v̂ + c a) with the acceleration a without bearing forces.
     pub fn set_free_motion(&mut self, system: &System, [x, v, a]: [&DVector<f64>; 3], gain: &NewmarkGain) {
-        system.to_interface(x, &mut self.free_d);
-        system.to_interface(v, &mut self.free_d_rate);
-        system.to_interface(a, &mut self.free_acceleration);
-        for (r, acceleration) in self.free_acceleration.iter().enumerate() {
-            self.free_d[r] += gain.position * acceleration;
-            self.free_d_rate[r] += gain.velocity * acceleration;
+        let n = self.free.len();
+        for (start, gain, out) in
+            [(x, gain.position, &mut self.free_d), (v, gain.velocity, &mut self.free_d_rate)]
+        {
+            let [start, a] = [start, a].map(|y| &y.as_slice()[..n]);
+            let free = &mut self.free.as_mut_slice()[..n];
+            for k in 0..n {
+                free[k] = start[k] + gain * a[k];
+            }
+            system.to_interface(&self.free, out);
         }
     }
 
@@ -114,6 +122,7 @@ impl InterfaceNewton {
         let has_internal = self.d.len() > system.rows();
         let mut keeps_jacobian = self.jacobian.is_for(gain);
         let mut change_before = None;
+        let mut allowed = OLD_JACOBIAN_ERROR * b;
         let mut failure = StepFailure { row: 0, residual: f64::INFINITY, iterations: 0 };
         for iteration in 1..=MAX_ITERATIONS {
             self.iterations += 1;
@@ -138,7 +147,10 @@ impl InterfaceNewton {
                 _ => is_old || change <= largest_kept,
             };
             let of_second_order = change * change / (4.0 * DEFLECTION) / (ACCELERATION_ERROR * b);
-            let of_old_jacobian = self.jacobian.contraction() * change / (OLD_JACOBIAN_ERROR * b);
+            if iteration == 1 {
+                allowed = allowed.max(PART_OF_FIRST_CHANGE * change);
+            }
+            let of_old_jacobian = self.jacobian.contraction() * change / allowed;
             if of_second_order + of_old_jacobian <= 1.0 {
                 self.apply_last_correction(system, gain);
                 self.jacobian.solved();

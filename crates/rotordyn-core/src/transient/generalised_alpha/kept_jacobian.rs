@@ -8,8 +8,8 @@ use rotordyn_linalg::panel::Panel;
 use rotordyn_linalg::small_dense::PaddedMatrix;
 use serde::{Deserialize, Serialize};
 
-/// The Jacobian I + Y T is formed again where an iteration leaves more than this part of the last change.
-const LARGEST_CONTRACTION: f64 = 0.02;
+/// The Jacobian I + Y T is formed again where an iteration leaves more than this part of the last change: two leave a thousandth.
+const LARGEST_CONTRACTION: f64 = 0.03;
 /// Contraction per solution before any was measured.
 const UNKNOWN_DRIFT: f64 = 1.0;
 
