@@ -64,6 +64,11 @@ impl GeneralisedAlpha {
         }
     }
 
+    /// Ends Newton's iterations where their error is far below that of the step.
+    pub fn end_below_step_error(&mut self) {
+        self.newton.end_below_step_error();
+    }
+
     /// Its parameters.
     pub fn scheme(&self) -> Scheme {
         self.scheme

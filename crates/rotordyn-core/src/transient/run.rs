@@ -201,7 +201,7 @@ pub fn run(
     let grid = Grid::new(settings);
     let run = Run {
         start: state.time,
-        stepper: Stepper::new(system, settings.integrator, grid.step),
+        stepper: Stepper::new(system, settings.integrator, grid.step).end_below_step_error(),
         defects: DefectSteps::new(system, grid.step, settings.defect_step, Vibration::default()),
         balance: EnergyBalance::new(system, &state),
         means: IntervalMeans::new(system, &state),
@@ -229,7 +229,7 @@ pub fn resume(
     let RunSnapshot { index, start, state, stepper, vibration, balance, channels } = snapshot;
     let grid = Grid::new(settings);
     let defects = DefectSteps::new(system, grid.step, settings.defect_step, vibration);
-    let stepper = Stepper::after(system, settings.integrator, &stepper);
+    let stepper = Stepper::after(system, settings.integrator, &stepper).end_below_step_error();
     let means = IntervalMeans::after(channels);
     let run = Run { start, state, stepper, defects, balance, means };
     run.perform(system, &grid, index + 1, observe)

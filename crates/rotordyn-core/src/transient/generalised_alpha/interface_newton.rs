@@ -20,8 +20,8 @@ const DEFLECTION: f64 = 1e-7;
 /// The same of an old Jacobian, which leaves a part of the change itself: that error is measured, the one above is a bound
 /// which contacts under load keep far below.
 const OLD_JACOBIAN_ERROR: f64 = 1e-6;
-/// It may also be this part of the first change, of what the forces extrapolated from the last steps miss: the error of the step
-/// itself is a hundred times that.
+/// In a run it may also be this part of the first change, of what the forces extrapolated from the last steps miss: the error of
+/// the step itself is hundreds of times that.
 const PART_OF_FIRST_CHANGE: f64 = 1e-3;
 const MAX_ITERATIONS: usize = 25;
 
@@ -42,6 +42,8 @@ pub(super) struct InterfaceNewton {
     jacobian: KeptJacobian,
     /// Whether it serves later steps: iterations with forces alone must cost less than new tangents.
     keeps_jacobian: bool,
+    /// Part of the first change that may remain.
+    part_of_first_change: f64,
     /// Rows of every interface.
     blocks: Vec<Range<usize>>,
     d: Vec<f64>,
@@ -67,6 +69,7 @@ impl InterfaceNewton {
             correction: vec![0.0; rows],
             jacobian: KeptJacobian::new(rows),
             keeps_jacobian: system.interfaces.iter().all(|i| i.internal == 0 && i.element.has_cheap_force()),
+            part_of_first_change: 0.0,
             blocks: system.interfaces.iter().map(Interface::row_range).collect(),
             d: vec![0.0; places],
             d_rate: vec![0.0; places],
@@ -90,6 +93,11 @@ impl InterfaceNewton {
             }
             system.to_interface(&self.free, out);
         }
+    }
+
+    /// Ends where the error is far below that of the step.
+    pub fn end_below_step_error(&mut self) {
+        self.part_of_first_change = PART_OF_FIRST_CHANGE;
     }
 
     /// What the next step takes from the Jacobian of this one.
@@ -148,7 +156,7 @@ impl InterfaceNewton {
             };
             let of_second_order = change * change / (4.0 * DEFLECTION) / (ACCELERATION_ERROR * b);
             if iteration == 1 {
-                allowed = allowed.max(PART_OF_FIRST_CHANGE * change);
+                allowed = allowed.max(self.part_of_first_change * change);
             }
             let of_old_jacobian = self.jacobian.contraction() * change / allowed;
             if of_second_order + of_old_jacobian <= 1.0 {
