@@ -137,7 +137,7 @@ impl Job<'_> {
             Some(recorder) => results_file::write_motion(store, &recorder.motion),
             None => Ok(()),
         });
-        // What ended the run is reported, and that its samples could not be compressed only if nothing else did.
+        // What ended the run is reported, and that its samples could not be copied only if nothing else did.
         let failure = failure.or(ended.err().map(|error| {
             Failure::from(error).with_consequence("the samples so far are kept as they were recorded")
         }));

@@ -39,7 +39,7 @@ pub fn begin(path: &Path, root: &str, format: &RunFormat, samples: usize) -> Cha
     ChannelStream::start(path, root).unwrap()
 }
 
-/// Ends a run: copies it, compressed, into an open file.
+/// Ends a run: copies it into an open file.
 pub fn end(stream: ChannelStream, path: &Path, root: &str, state: &str, store: &Store) {
     stream.finish().unwrap();
     copy_run(&Store::open(path).unwrap(), store, root, state).unwrap();
@@ -79,6 +79,10 @@ fn complete_run_round_trip_is_exact() {
         store.commit().unwrap();
         let store = Store::open(&ended).unwrap();
         assert_contains(&read_recording(&store, "/spherical").unwrap(), samples, state);
+        drop(store);
+        // It has ended, whether its samples are compressed or not.
+        let refused = ChannelStream::start(&ended, "/spherical").unwrap_err().to_string();
+        assert!(refused.contains("no run under way"), "{refused}");
     }
 }
 

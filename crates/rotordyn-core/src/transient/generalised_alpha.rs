@@ -64,7 +64,7 @@ impl GeneralisedAlpha {
         }
     }
 
-    /// Ends Newton's iterations where their error is far below that of the step.
+    /// Ends Newton's iterations where they leave a thousandth of the first correction of a step.
     pub fn end_below_step_error(&mut self) {
         self.newton.end_below_step_error();
     }

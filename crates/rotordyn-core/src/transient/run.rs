@@ -378,7 +378,9 @@ impl Run {
                     }
                     if let Some(drive) = &system.drive {
                         drive.recentre(state);
-                        balance.restart_from(system, state);
+                        if grid.energy_balance {
+                            balance.restart_from(system, state);
+                        }
                     }
                     means.add(system, state, taken / grid.interval);
                     Ok(())

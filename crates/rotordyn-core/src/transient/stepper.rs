@@ -99,8 +99,8 @@ impl Stepper {
         Self { method, steps: 0, halvings: 0, structure_step: None, shortest: f64::INFINITY }
     }
 
-    /// Ends Newton's iterations of an implicit method where their error is far below that of the step, instead of below what shows
-    /// in any result: for a run, not for the small difference of two trajectories.
+    /// Ends Newton's iterations of an implicit method where they leave a thousandth of the first correction of a step, far less than
+    /// the step itself: for a run-up, not for the small difference of two trajectories.
     pub fn end_below_step_error(mut self) -> Self {
         if let Method::Implicit(method) = &mut self.method {
             method.end_below_step_error();

@@ -1,7 +1,7 @@
 //! Samples of a run, written to its preallocated data sets while it is under way.
 
 use super::Store;
-use super::recording::{channel_names, recorded_samples};
+use super::recording::{RUNNING, channel_names, recorded_samples, run_state};
 use super::sample_sets::set_paths;
 use crate::error::Error;
 use std::fs::File;
@@ -50,6 +50,9 @@ impl ChannelStream {
     /// The file cannot be opened, or has no preallocated run with as many samples.
     pub fn resume(path: &Path, root: &str, samples: usize) -> Result<ChannelStream, Error> {
         let store = Store::open(path)?;
+        if run_state(&store, root)?.as_deref() != Some(RUNNING) {
+            return Err(Error::of_file("write", path)("no run under way"));
+        }
         let names = channel_names(&store, root)?;
         let mut offsets = Vec::new();
         let mut capacity = usize::MAX;

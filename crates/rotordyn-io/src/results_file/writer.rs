@@ -166,7 +166,7 @@ impl ResultsWriter {
         Ok(stream)
     }
 
-    /// Ends a run: `results_unfinished.h5` then holds it compressed, with the finished studies and what `add` writes.
+    /// Ends a run: `results_unfinished.h5` then holds its samples alone, compressed where it pays, with the finished studies and what `add` writes.
     ///
     /// `state`: "complete" or "stopped: reason".
     ///

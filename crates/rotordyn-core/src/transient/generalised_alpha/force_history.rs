@@ -87,6 +87,18 @@ mod tests {
     use super::*;
 
     #[test]
+    fn equal_steps_extrapolate_the_polynomial_through_the_states_so_far() {
+        for degree in 0..=DEGREE {
+            let force = |k: usize| (k as f64 - 0.7).powi(degree as i32);
+            let mut history = ForceHistory::new(1);
+            (0..degree).for_each(|k| history.push(&[force(k)], 1.0));
+            let mut out = [0.0];
+            history.extrapolate(&[force(degree)], 1.0, &mut out);
+            assert!((out[0] - force(degree + 1)).abs() < 1e-11, "{degree}: {out:?}");
+        }
+    }
+
+    #[test]
     fn polynomials_are_extrapolated_over_steps_of_any_length() {
         let force = |t: f64| 2.0 - 3.0 * t + 0.7 * t * t - 0.2 * t * t * t + 0.03 * t.powi(4);
         let mut history = ForceHistory::new(1);

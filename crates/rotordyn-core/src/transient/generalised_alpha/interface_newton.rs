@@ -20,8 +20,8 @@ const DEFLECTION: f64 = 1e-7;
 /// The same of an old Jacobian, which leaves a part of the change itself: that error is measured, the one above is a bound
 /// which contacts under load keep far below.
 const OLD_JACOBIAN_ERROR: f64 = 1e-6;
-/// In a run it may also be this part of the first change, of what the forces extrapolated from the last steps miss: the error of
-/// the step itself is hundreds of times that.
+/// In a run-up it may also be this part of the first change, of what the forces extrapolated from the last steps miss. On the rig
+/// half the step changes the accelerations by some hundred times what that leaves.
 const PART_OF_FIRST_CHANGE: f64 = 1e-3;
 const MAX_ITERATIONS: usize = 25;
 
@@ -98,6 +98,8 @@ impl InterfaceNewton {
     /// Ends where the error is far below that of the step.
     pub fn end_below_step_error(&mut self) {
         self.part_of_first_change = PART_OF_FIRST_CHANGE;
+        // Two iterations then leave that part.
+        self.jacobian.largest_contraction = PART_OF_FIRST_CHANGE.sqrt();
     }
 
     /// What the next step takes from the Jacobian of this one.
