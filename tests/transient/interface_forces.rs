@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 use nalgebra::DVector;
 
 use crate::rig::variant;
+use rotordyn::model::study::RunUpStudy;
 use rotordyn::study::Machine;
+use rotordyn::transient::reduction::Reduction;
 use rotordyn::transient::stepper::Stepper;
 use rotordyn::transient::system::{Bodies, State, System};
 
@@ -25,20 +27,26 @@ fn rms(values: &[DVector<f64>]) -> f64 {
     (values.iter().map(|value| value.norm_squared()).sum::<f64>() / count as f64).sqrt()
 }
 
+/// A variant of the rig that runs up in a second.
+fn fast_run_up(name: Option<&str>) -> (Machine, RunUpStudy, Reduction) {
+    let quick = [("speed.settle", "0.01 s"), ("speed.ramp", "1 s"), ("speed.hold", "0.2 s")];
+    let machine = Machine::new(variant(name, &quick)).unwrap();
+    let study = machine.model.studies.run_up.clone().unwrap();
+    let reduction = machine.reduce(&study).unwrap();
+    (machine, study, reduction)
+}
+
 /// A Jacobian serves many steps: no step may end before its forces are those of its displacements, but for a small part of the
 /// error that its length makes.
 #[test]
 fn forces_of_every_state_are_those_of_its_displacements() {
     for name in [None, Some("wavy"), Some("dented")] {
-        let quick = [("speed.settle", "0.01 s"), ("speed.ramp", "1 s"), ("speed.hold", "0.2 s")];
-        let machine = Machine::new(variant(name, &quick)).unwrap();
-        let study = machine.model.studies.run_up.clone().unwrap();
-        let reduction = &machine.reduce(&study).unwrap();
+        let (machine, study, reduction) = fast_run_up(name);
         let run = |part: f64| {
             let mut study = study.clone();
             (study.step, study.defect_step) = (part * study.step, part * study.defect_step);
             let (mut errors, mut accelerations) = (Vec::new(), Vec::new());
-            let report = machine.run_up(&study, reduction, |sample| {
+            let report = machine.run_up(&study, &reduction, |sample| {
                 errors.push(acceleration_error(&reduction.system, sample.state));
                 accelerations.push(&reduction.system.interface_map * &sample.state.acceleration);
                 ControlFlow::Continue(())
@@ -67,10 +75,7 @@ fn forces_of_every_state_are_those_of_its_displacements() {
 #[test]
 fn forces_of_steady_motions_have_no_error_that_shows() {
     for name in [None, Some("wavy"), Some("dented")] {
-        let quick = [("speed.settle", "0.01 s"), ("speed.ramp", "1 s"), ("speed.hold", "0.2 s")];
-        let machine = Machine::new(variant(name, &quick)).unwrap();
-        let study = machine.model.studies.run_up.clone().unwrap();
-        let reduction = &machine.reduce(&study).unwrap();
+        let (_, study, reduction) = fast_run_up(name);
         let (system, step) = (&reduction.system, study.step.min(study.defect_step));
         let mut stepper = Stepper::new(system, study.integrator, step);
         let at_rest = &reduction.equilibrium * 0.0;

@@ -204,6 +204,7 @@ pub fn run(
         stepper: Stepper::new(system, settings.integrator, grid.step).end_below_step_error(),
         defects: DefectSteps::new(system, grid.step, settings.defect_step, Vibration::default()),
         balance: EnergyBalance::new(system, &state),
+        follows_energy: settings.energy_balance,
         means: IntervalMeans::new(system, &state),
         state,
     };
@@ -231,18 +232,18 @@ pub fn resume(
     let defects = DefectSteps::new(system, grid.step, settings.defect_step, vibration);
     let stepper = Stepper::after(system, settings.integrator, &stepper).end_below_step_error();
     let means = IntervalMeans::after(channels);
-    let run = Run { start, state, stepper, defects, balance, means };
+    let follows_energy = settings.energy_balance;
+    let run = Run { start, state, stepper, defects, balance, follows_energy, means };
     run.perform(system, &grid, index + 1, observe)
 }
 
-/// Times of a run, and what is followed: `calls` of the stepper of length `step` between two samples.
+/// Times of a run: `calls` of the stepper of length `step` between two samples.
 struct Grid {
     interval: f64,
     calls: usize,
     step: f64,
     /// Index of the last sample.
     samples: usize,
-    energy_balance: bool,
 }
 
 impl Grid {
@@ -250,8 +251,7 @@ impl Grid {
         let interval = 1.0 / settings.sample_rate;
         let substeps = (interval / settings.step * (1.0 - 1e-12)).ceil().max(1.0) as usize;
         let samples = (settings.duration * settings.sample_rate + 1e-9).floor() as usize;
-        let step = interval / substeps as f64;
-        Self { interval, calls: substeps, step, samples, energy_balance: settings.energy_balance }
+        Self { interval, calls: substeps, step: interval / substeps as f64, samples }
     }
 }
 
@@ -263,6 +263,7 @@ struct Run {
     stepper: Stepper,
     defects: DefectSteps,
     balance: EnergyBalance,
+    follows_energy: bool,
     means: IntervalMeans,
 }
 
@@ -308,11 +309,11 @@ impl Run {
                 end = End::Failed(error);
                 break;
             }
-            if grid.energy_balance {
+            if self.follows_energy {
                 self.balance.update_stored_energy(system, &self.state);
             }
             seen = index + 1;
-            let Self { start, state, stepper, defects, balance, means } = &self;
+            let Self { start, state, stepper, defects, balance, means, .. } = &self;
             let run = RunParts { start: *start, last: grid.samples, stepper, defects, balance, means };
             let IntervalChannels { steps, is_divided, parts, jumps } = &interval;
             let sample = Sample {
@@ -355,7 +356,7 @@ impl Run {
         index: usize,
         channels: &mut IntervalChannels,
     ) -> Result<(), PhysicsError> {
-        let Self { start, state, stepper, defects, balance, means } = self;
+        let Self { start, state, stepper, defects, balance, follows_energy, means } = self;
         // Error control chooses the steps between two samples.
         let is_adaptive = stepper.is_adaptive();
         let (calls, step) = if is_adaptive { (1, grid.interval) } else { (grid.calls, grid.step) };
@@ -373,12 +374,12 @@ impl Run {
             for p in 1..=parts {
                 let end = *start + (steps_before + p as f64 / parts as f64) * step;
                 stepper.advance(system, state, part, end, &mut |state, taken| {
-                    if grid.energy_balance {
+                    if *follows_energy {
                         balance.update(system, state);
                     }
                     if let Some(drive) = &system.drive {
                         drive.recentre(state);
-                        if grid.energy_balance {
+                        if *follows_energy {
                             balance.restart_from(system, state);
                         }
                     }

@@ -23,6 +23,8 @@ const OLD_JACOBIAN_ERROR: f64 = 1e-6;
 /// In a run-up it may also be this part of the first change, of what the forces extrapolated from the last steps miss. On the rig
 /// half the step changes the accelerations by some hundred times what that leaves.
 const PART_OF_FIRST_CHANGE: f64 = 1e-3;
+/// The Jacobian is formed again where an iteration leaves more than this part of the last change.
+const LARGEST_CONTRACTION: f64 = 0.02;
 const MAX_ITERATIONS: usize = 25;
 
 /// The interface problem d = d̄ + b u, ḋ = ḋ̄ + c u, u = Y f(d, ḋ) with Y = W S⁻¹ Wᵀ and the step's gains b and c, and
@@ -42,8 +44,9 @@ pub(super) struct InterfaceNewton {
     jacobian: KeptJacobian,
     /// Whether it serves later steps: iterations with forces alone must cost less than new tangents.
     keeps_jacobian: bool,
-    /// Part of the first change that may remain.
+    /// Part of the first change that may remain, and part of the last change that an iteration with an old Jacobian may leave.
     part_of_first_change: f64,
+    largest_contraction: f64,
     /// Rows of every interface.
     blocks: Vec<Range<usize>>,
     d: Vec<f64>,
@@ -70,6 +73,7 @@ impl InterfaceNewton {
             jacobian: KeptJacobian::new(rows),
             keeps_jacobian: system.interfaces.iter().all(|i| i.internal == 0 && i.element.has_cheap_force()),
             part_of_first_change: 0.0,
+            largest_contraction: LARGEST_CONTRACTION,
             blocks: system.interfaces.iter().map(Interface::row_range).collect(),
             d: vec![0.0; places],
             d_rate: vec![0.0; places],
@@ -99,7 +103,7 @@ impl InterfaceNewton {
     pub fn end_below_step_error(&mut self) {
         self.part_of_first_change = PART_OF_FIRST_CHANGE;
         // Two iterations then leave that part.
-        self.jacobian.largest_contraction = PART_OF_FIRST_CHANGE.sqrt();
+        self.largest_contraction = PART_OF_FIRST_CHANGE.sqrt();
     }
 
     /// What the next step takes from the Jacobian of this one.
@@ -153,7 +157,10 @@ impl InterfaceNewton {
             failure = StepFailure { row, residual: change, iterations: iteration };
             let is_old = self.jacobian.is_old();
             let serves = match change_before {
-                Some(before) if is_old => self.jacobian.observe(change, before),
+                Some(before) if is_old => {
+                    self.jacobian.observe(change, before);
+                    change <= self.largest_contraction * before
+                }
                 _ => is_old || change <= largest_kept,
             };
             let of_second_order = change * change / (4.0 * DEFLECTION) / (ACCELERATION_ERROR * b);

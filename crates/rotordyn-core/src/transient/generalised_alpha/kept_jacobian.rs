@@ -8,8 +8,6 @@ use rotordyn_linalg::panel::Panel;
 use rotordyn_linalg::small_dense::PaddedMatrix;
 use serde::{Deserialize, Serialize};
 
-/// The Jacobian I + Y T is formed again where an iteration leaves more than this part of the last change.
-const LARGEST_CONTRACTION: f64 = 0.02;
 /// Contraction per solution before any was measured.
 const UNKNOWN_DRIFT: f64 = 1.0;
 
@@ -21,8 +19,6 @@ pub(super) struct KeptJacobian {
     /// If it is kept.
     inverse: Panel,
     column: Vec<f64>,
-    /// Part of the last change that an iteration may leave.
-    pub largest_contraction: f64,
     kept: Kept,
 }
 
@@ -58,7 +54,6 @@ impl KeptJacobian {
             factors: PaddedMatrix::new(rows),
             inverse: Panel::new(&[&DMatrix::zeros(rows, rows)]),
             column: vec![0.0; rows],
-            largest_contraction: LARGEST_CONTRACTION,
             kept: Kept::default(),
         }
     }
@@ -150,13 +145,12 @@ impl KeptJacobian {
         }
     }
 
-    /// Notes the change of an iteration and that of the one before with the same old Jacobian; whether it still serves.
-    pub fn observe(&mut self, change: f64, before: f64) -> bool {
+    /// Notes the change of an iteration and that of the one before with the same old Jacobian.
+    pub fn observe(&mut self, change: f64, before: f64) {
         let drift = change / before / f64::from(self.kept.solutions);
         // A change that is small by chance says little.
         let least = 0.5 * self.kept.drift.unwrap_or(0.0);
         self.kept.drift = Some(drift.max(least));
-        change <= self.largest_contraction * before
     }
 
     /// Notes a solution.
