@@ -112,7 +112,7 @@ impl BandLayout {
     }
 
     /// Place of an entry in the band storage; `None` outside a restricted layout.
-    pub(super) fn slot(&self, i: usize, j: usize) -> Option<usize> {
+    pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
         let ((b, p), (_, q)) = (self.slots[i]?, self.slots[j]?);
         let block = &self.blocks[b];
         Some(block.start + p * block.width() + block.half_bandwidth + q - p)
@@ -155,7 +155,8 @@ impl BandLayout {
         T: ComplexField<RealField = f64> + Copy,
     {
         let multipliers = self.blocks.iter().map(|b| b.order.len() * b.half_bandwidth).sum();
-        BandLu { layout: self, values, pivots: vec![0; self.size], multipliers: vec![T::zero(); multipliers] }
+        let (pivots, reaches) = (vec![0; self.size], vec![0; self.size]);
+        BandLu { layout: self, values, pivots, reaches, multipliers: vec![T::zero(); multipliers] }
     }
 }
 
@@ -165,6 +166,8 @@ pub struct BandLu<'a, T> {
     layout: &'a BandLayout,
     values: Vec<T>,
     pivots: Vec<usize>,
+    /// Entries of every row of the upper factor right of the diagonal.
+    reaches: Vec<usize>,
     /// Those of every column, one after another: a solution runs along them.
     multipliers: Vec<T>,
 }
@@ -187,19 +190,22 @@ where
     fn factor_all(&mut self) -> Result<(), ZeroPivot> {
         let arch = Arch::new();
         let (mut pivots, mut multipliers) = (self.pivots.as_mut_slice(), self.multipliers.as_mut_slice());
+        let mut reaches = self.reaches.as_mut_slice();
         for block in &self.layout.blocks {
             let n = block.order.len();
             let values = &mut self.values[block.start..block.start + n * block.width()];
             let (own_pivots, rest) = pivots.split_at_mut(n);
+            let (own_reaches, later) = reaches.split_at_mut(n);
             let (own_multipliers, other) = multipliers.split_at_mut(n * block.half_bandwidth);
             let elimination = Elimination {
                 a: values,
                 pivots: own_pivots,
+                reaches: own_reaches,
                 multipliers: own_multipliers,
                 half: block.half_bandwidth,
             };
             arch.dispatch(elimination).map_err(|at| ZeroPivot { unknown: block.order[at] })?;
-            (pivots, multipliers) = (rest, other);
+            (pivots, reaches, multipliers) = (rest, later, other);
         }
         Ok(())
     }
@@ -207,10 +213,12 @@ where
     /// Solves A x = b in place.
     pub fn solve(&self, b: &mut [T]) {
         let (mut pivots, mut multipliers) = (self.pivots.as_slice(), self.multipliers.as_slice());
+        let mut reaches = self.reaches.as_slice();
         let (mut x, arch) = (Vec::new(), Arch::new());
         for block in &self.layout.blocks {
             let n = block.order.len();
             let (own_pivots, rest) = pivots.split_at(n);
+            let (own_reaches, later) = reaches.split_at(n);
             let (own_multipliers, other) = multipliers.split_at(n * block.half_bandwidth);
             if block.order.iter().any(|&i| b[i] != T::zero()) {
                 x.clear();
@@ -219,6 +227,7 @@ where
                 let factors = BlockFactors {
                     a: values,
                     pivots: own_pivots,
+                    reaches: own_reaches,
                     multipliers: own_multipliers,
                     half: block.half_bandwidth,
                 };
@@ -227,7 +236,7 @@ where
                     b[i] = v;
                 }
             }
-            (pivots, multipliers) = (rest, other);
+            (pivots, reaches, multipliers) = (rest, later, other);
         }
     }
 }
@@ -239,6 +248,7 @@ where
 struct Elimination<'a, T> {
     a: &'a mut [T],
     pivots: &'a mut [usize],
+    reaches: &'a mut [usize],
     multipliers: &'a mut [T],
     half: usize,
 }
@@ -251,8 +261,10 @@ where
 
     #[inline(always)]
     fn call(self) -> Result<(), usize> {
-        let Self { a, pivots, multipliers, half } = self;
+        let Self { a, pivots, reaches, multipliers, half } = self;
         let (n, w) = (pivots.len(), 3 * half + 1);
+        // Last column that the rows so far reach.
+        let mut end = 0;
         for j in 0..n {
             let last = (j + half).min(n - 1);
             let at = |r: usize| r * w + half + j - r;
@@ -262,12 +274,13 @@ where
                     pivot = r;
                 }
             }
-            pivots[j] = pivot;
             let value = a[at(pivot)];
             if value == T::zero() || !value.is_finite() {
                 return Err(j);
             }
-            let reach = (2 * half).min(n - 1 - j);
+            end = end.max((pivot + half).min(n - 1));
+            let reach = end - j;
+            (pivots[j], reaches[j]) = (pivot, reach);
             if pivot != j {
                 let (up, down) = (at(j), at(pivot));
                 for c in 0..=reach {
@@ -297,6 +310,7 @@ where
 struct BlockFactors<'a, T> {
     a: &'a [T],
     pivots: &'a [usize],
+    reaches: &'a [usize],
     multipliers: &'a [T],
     half: usize,
 }
@@ -314,7 +328,7 @@ where
 
     #[inline(always)]
     fn call(self) {
-        let BlockFactors { a, pivots, multipliers, half } = self.factors;
+        let BlockFactors { a, pivots, reaches, multipliers, half } = self.factors;
         let x = self.x;
         let (n, w) = (pivots.len(), 3 * half + 1);
         for j in 0..n {
@@ -325,7 +339,7 @@ where
             }
         }
         for j in (0..n).rev() {
-            let reach = (2 * half).min(n - 1 - j);
+            let reach = reaches[j];
             let row = &a[j * w + half..][..=reach];
             // Two sums, neither of which waits for the other.
             let (pairs, rest) = row[1..].as_chunks::<2>();

@@ -2,93 +2,17 @@
 //! frequencies.
 //!
 //! The matrices lie side by side, number for number: one vector instruction does the same step in each. They exchange the
-//! same rows, so the pivots are those that are large in all of them (threshold pivoting).
+//! same rows, so the pivots are those that are large enough in all of them (threshold pivoting), compared by rows of equal
+//! largest entries, and on the diagonal where they can be: exchanges widen the band.
 
 use super::band_lu::{BandLayout, Block};
-use crate::{Complex64, SparseMatrix, SparseRow};
+use super::complex_lanes::{ComplexLanes, LANES};
 use pulp::{Arch, NullaryFnOnce};
 use std::sync::Arc;
 
-/// Matrices side by side.
-pub const LANES: usize = 8;
-/// Least size of a pivot relative to the largest candidate of its matrix: round-off grows at most by the inverse at a step.
+/// Least size of a pivot relative to the largest candidate of its matrix, in rows of equal largest entries: round-off grows
+/// at most by the inverse at a step.
 const LEAST_PIVOT: f64 = 0.1;
-
-/// A complex number of each matrix.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct ComplexLanes {
-    pub re: [f64; LANES],
-    pub im: [f64; LANES],
-}
-
-impl ComplexLanes {
-    /// The number of one matrix.
-    pub fn lane(&self, lane: usize) -> Complex64 {
-        Complex64::new(self.re[lane], self.im[lane])
-    }
-
-    /// Sets the number of one matrix.
-    pub fn set_lane(&mut self, lane: usize, z: Complex64) {
-        (self.re[lane], self.im[lane]) = (z.re, z.im);
-    }
-
-    /// Adds `factor` z.
-    pub fn add_scaled(&mut self, factor: f64, z: &Self) {
-        for k in 0..LANES {
-            self.re[k] += factor * z.re[k];
-            self.im[k] += factor * z.im[k];
-        }
-    }
-
-    #[inline(always)]
-    fn subtract_product(&mut self, a: &Self, b: &Self) {
-        for k in 0..LANES {
-            self.re[k] = self.re[k] - a.re[k] * b.re[k] + a.im[k] * b.im[k];
-            self.im[k] = self.im[k] - a.re[k] * b.im[k] - a.im[k] * b.re[k];
-        }
-    }
-
-    #[inline(always)]
-    fn product(&self, by: &Self) -> Self {
-        let mut out = Self::default();
-        for k in 0..LANES {
-            out.re[k] = self.re[k] * by.re[k] - self.im[k] * by.im[k];
-            out.im[k] = self.re[k] * by.im[k] + self.im[k] * by.re[k];
-        }
-        out
-    }
-
-    #[inline(always)]
-    fn inverse(&self) -> Self {
-        let mut out = Self::default();
-        for k in 0..LANES {
-            let square = self.re[k] * self.re[k] + self.im[k] * self.im[k];
-            out.re[k] = self.re[k] / square;
-            out.im[k] = -self.im[k] / square;
-        }
-        out
-    }
-
-    #[inline(always)]
-    fn is_zero(&self) -> bool {
-        self.re == [0.0; LANES] && self.im == [0.0; LANES]
-    }
-
-    #[inline(always)]
-    fn norm1(&self) -> [f64; LANES] {
-        std::array::from_fn(
-            #[inline(always)]
-            |k| self.re[k].abs() + self.im[k].abs(),
-        )
-    }
-}
-
-/// Product of a sparse row with the vectors of all matrices.
-pub fn dot_lanes(row: &SparseRow, x: &[ComplexLanes]) -> ComplexLanes {
-    let mut sum = ComplexLanes::default();
-    row.0.iter().for_each(|&(i, v)| sum.add_scaled(v, &x[i]));
-    sum
-}
 
 /// LU factors of the dynamic stiffness S − ω² M + jω D of [`LANES`] systems or frequencies.
 ///
@@ -103,6 +27,8 @@ pub struct BandLuLanes {
 /// What the elimination leaves beside the upper factor.
 struct Factors {
     pivots: Vec<usize>,
+    /// Entries of every row of the upper factor right of the diagonal.
+    reaches: Vec<usize>,
     /// Those of every column, one after another: a solution runs along them.
     multipliers: Vec<ComplexLanes>,
     /// Inverses of the pivots.
@@ -118,6 +44,7 @@ impl BandLuLanes {
             values: vec![ComplexLanes::default(); layout.storage()],
             factors: Factors {
                 pivots: vec![0; unknowns],
+                reaches: vec![0; unknowns],
                 multipliers: vec![ComplexLanes::default(); multipliers],
                 inverses: vec![ComplexLanes::default(); unknowns],
             },
@@ -128,45 +55,24 @@ impl BandLuLanes {
 
     /// Takes one system, M, D, S in band storage of the layout, at the angular frequencies ω \[rad/s\].
     pub fn set_frequencies(&mut self, [mass, damping, stiffness]: [&[f64]; 3], omega: &[f64; LANES]) {
-        let square = omega.map(|w| w * w);
-        let matrices = mass.iter().zip(damping).zip(stiffness);
-        for (value, ((m, d), s)) in self.values.iter_mut().zip(matrices) {
-            for k in 0..LANES {
-                value.re[k] = s - square[k] * m;
-                value.im[k] = omega[k] * d;
-            }
-        }
+        let terms = Terms { stiffness: [stiffness, &[]], mass, damping: [damping, &[]] };
+        self.arch.dispatch(Sums { of: terms, omega, values: &mut self.values });
     }
 
-    /// Takes up to [`LANES`] systems M, D, S, each at its angular frequency ω \[rad/s\]; the last one in all lanes left.
-    pub fn set_systems<'m>(&mut self, systems: impl Iterator<Item = ([&'m SparseMatrix; 3], f64)>) {
-        self.values.fill(ComplexLanes::default());
-        let mut lanes = 0;
-        for (lane, ([mass, damping, stiffness], omega)) in systems.take(LANES).enumerate() {
-            for (i, j, s) in stiffness.iter() {
-                if let Some(at) = self.layout.slot(i, j) {
-                    self.values[at].re[lane] += s;
-                }
-            }
-            for (i, j, m) in mass.iter() {
-                if let Some(at) = self.layout.slot(i, j) {
-                    self.values[at].re[lane] -= omega * omega * m;
-                }
-            }
-            for (i, j, d) in damping.iter() {
-                if let Some(at) = self.layout.slot(i, j) {
-                    self.values[at].im[lane] += omega * d;
-                }
-            }
-            lanes = lane + 1;
-        }
-        if (1..LANES).contains(&lanes) {
-            for value in &mut self.values {
-                let last = value.lane(lanes - 1);
-                value.re[lanes..].fill(last.re);
-                value.im[lanes..].fill(last.im);
-            }
-        }
+    /// Takes a machine, M, G, C, S, K_c in band storage of the layout, at the speeds Ω \[rad/s\] of synchronous motion:
+    /// S + Ω K_c − Ω² M + jΩ (C + Ω G).
+    pub fn set_speeds(
+        &mut self,
+        [mass, gyroscopic, damping, stiffness, circulatory]: [&[f64]; 5],
+        speeds: &[f64; LANES],
+    ) {
+        let terms = Terms { stiffness: [stiffness, circulatory], mass, damping: [damping, gyroscopic] };
+        self.arch.dispatch(Sums { of: terms, omega: speeds, values: &mut self.values });
+    }
+
+    /// The matrices in band storage of the layout, until they are factorised.
+    pub fn values_mut(&mut self) -> &mut [ComplexLanes] {
+        &mut self.values
     }
 
     /// Factorises the matrices.
@@ -185,6 +91,47 @@ impl BandLuLanes {
 
 // Structs in place of closures, which would not be inlined into the code for each set of vector instructions.
 
+/// S − ω² M + jω D with S and D linear in ω: constant terms and slopes, none of the latter where empty.
+#[derive(Clone, Copy)]
+struct Terms<'a> {
+    stiffness: [&'a [f64]; 2],
+    mass: &'a [f64],
+    damping: [&'a [f64]; 2],
+}
+
+struct Sums<'a> {
+    of: Terms<'a>,
+    omega: &'a [f64; LANES],
+    values: &'a mut [ComplexLanes],
+}
+
+impl NullaryFnOnce for Sums<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let Self { of: Terms { stiffness, mass, damping }, omega, values } = self;
+        let square = omega.map(
+            #[inline(always)]
+            |w| w * w,
+        );
+        let constant = stiffness[0].iter().zip(mass).zip(damping[0]);
+        for (value, ((s, m), d)) in values.iter_mut().zip(constant) {
+            for k in 0..LANES {
+                value.re[k] = s - square[k] * m;
+                value.im[k] = omega[k] * d;
+            }
+        }
+        let slopes = stiffness[1].iter().zip(damping[1]);
+        for (value, (s, d)) in values.iter_mut().zip(slopes) {
+            for k in 0..LANES {
+                value.re[k] += omega[k] * s;
+                value.im[k] += square[k] * d;
+            }
+        }
+    }
+}
+
 struct Factorisation<'a> {
     layout: &'a BandLayout,
     values: &'a mut [ComplexLanes],
@@ -196,13 +143,14 @@ impl NullaryFnOnce for Factorisation<'_> {
 
     #[inline(always)]
     fn call(self) -> bool {
-        let Factors { pivots, multipliers, inverses } = self.factors;
+        let Factors { pivots, reaches, multipliers, inverses } = self.factors;
         let (mut unknown, mut multiplier) = (0, 0);
         for block in &self.layout.blocks {
             let (n, m) = (block.order.len(), block.order.len() * block.half_bandwidth);
             let whole = factor_block(
                 &mut self.values[block.start..block.start + n * block.width()],
                 &mut pivots[unknown..unknown + n],
+                &mut reaches[unknown..unknown + n],
                 &mut multipliers[multiplier..multiplier + m],
                 &mut inverses[unknown..unknown + n],
                 block.half_bandwidth,
@@ -235,6 +183,7 @@ impl NullaryFnOnce for Solution<'_> {
                 block,
                 values: &values[block.start..block.start + n * block.width()],
                 pivots: &factors.pivots[unknown..unknown + n],
+                reaches: &factors.reaches[unknown..unknown + n],
                 multipliers: &factors.multipliers[multiplier..multiplier + m],
                 inverses: &factors.inverses[unknown..unknown + n],
             };
@@ -250,18 +199,28 @@ impl NullaryFnOnce for Solution<'_> {
 fn factor_block(
     a: &mut [ComplexLanes],
     pivots: &mut [usize],
+    reaches: &mut [usize],
     multipliers: &mut [ComplexLanes],
     inverses: &mut [ComplexLanes],
     half: usize,
 ) -> bool {
     let (n, w) = (pivots.len(), 3 * half + 1);
+    // Of one matrix: the others are like it.
+    let scale = |row: &[ComplexLanes]| {
+        1.0 / row[..=2 * half].iter().map(|z| z.re[0].abs() + z.im[0].abs()).fold(f64::MIN_POSITIVE, f64::max)
+    };
+    let mut scales: Vec<f64> = a.chunks_exact(w).map(scale).collect();
+    // Last column that the rows so far reach.
+    let mut end = 0;
     for j in 0..n {
         let last = (j + half).min(n - 1);
         let at = |r: usize| r * w + half + j - r;
-        let Some(pivot) = common_pivot(a, j..=last, at) else { return false };
-        pivots[j] = pivot;
-        let reach = (2 * half).min(n - 1 - j);
+        let Some(pivot) = common_pivot(a, &scales, j..=last, at) else { return false };
+        end = end.max((pivot + half).min(n - 1));
+        let reach = end - j;
+        (pivots[j], reaches[j]) = (pivot, reach);
         if pivot != j {
+            scales.swap(j, pivot);
             let (up, down) = (at(j), at(pivot));
             for c in 0..=reach {
                 a.swap(up + c, down + c);
@@ -287,10 +246,12 @@ fn factor_block(
     true
 }
 
-/// The row whose entry is nearest to the largest of every matrix, if it is near enough.
+/// The first row, the diagonal one, if its entry is large enough in every matrix; else the row whose entry is nearest to the
+/// largest of every matrix, if that is.
 #[inline(always)]
 fn common_pivot(
     a: &[ComplexLanes],
+    scales: &[f64],
     rows: std::ops::RangeInclusive<usize>,
     at: impl Fn(usize) -> usize,
 ) -> Option<usize> {
@@ -299,21 +260,26 @@ fn common_pivot(
         let size = a[at(r)].norm1();
         for k in 0..LANES {
             // Written so that not-a-number stays.
-            largest[k] = if size[k] <= largest[k] { largest[k] } else { size[k] };
+            let size = scales[r] * size[k];
+            largest[k] = if size <= largest[k] { largest[k] } else { size };
         }
     }
     if !largest.iter().all(|size| *size > 0.0 && size.is_finite()) {
         return None;
     }
+    let diagonal = *rows.start();
     let (mut pivot, mut best) = (None, LEAST_PIVOT);
     for r in rows {
         let size = a[at(r)].norm1();
         let mut least = f64::INFINITY;
         for k in 0..LANES {
-            least = least.min(size[k] / largest[k]);
+            least = least.min(scales[r] * size[k] / largest[k]);
         }
         if least > best {
             (pivot, best) = (Some(r), least);
+            if r == diagonal {
+                break;
+            }
         }
     }
     pivot
@@ -324,6 +290,7 @@ struct BlockFactors<'a> {
     block: &'a Block,
     values: &'a [ComplexLanes],
     pivots: &'a [usize],
+    reaches: &'a [usize],
     multipliers: &'a [ComplexLanes],
     inverses: &'a [ComplexLanes],
 }
@@ -345,8 +312,7 @@ impl BlockFactors<'_> {
             }
         }
         for j in (0..n).rev() {
-            let reach = (2 * half).min(n - 1 - j);
-            let row = &self.values[j * w + half + 1..][..reach];
+            let row = &self.values[j * w + half + 1..][..self.reaches[j]];
             let mut sum = x[j];
             for (u, y) in row.iter().zip(&x[j + 1..]) {
                 sum.subtract_product(u, y);
@@ -362,7 +328,7 @@ impl BlockFactors<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Triplets;
+    use crate::{Complex64, SparseMatrix, Triplets};
 
     /// M, D, S of a shuffled band, indefinite with small diagonal, so that rows must be exchanged.
     fn matrices(n: usize) -> [SparseMatrix; 3] {
@@ -410,30 +376,30 @@ mod tests {
         }
     }
 
-    /// Systems of their own, fewer than lanes, after others in the same memory.
     #[test]
-    fn systems_are_taken_one_by_one() {
-        let matrices = matrices(40);
-        let systems: Vec<[SparseMatrix; 3]> = (0..LANES - 3)
-            .map(|k| matrices.each_ref().map(|a| SparseMatrix::sum(&[(1.0 + 1e-3 * k as f64, a)])))
-            .collect();
-        let mut lu = BandLuLanes::new(Arc::new(BandLayout::new(&matrices.each_ref())));
-        lu.set_systems([(matrices.each_ref(), 3.0)].into_iter());
-        assert!(solved(&mut lu).is_some());
-        let omega = |k: usize| 1.0 + 0.01 * k as f64;
-        lu.set_systems(systems.iter().enumerate().map(|(k, system)| (system.each_ref(), omega(k))));
+    fn matrices_that_grow_with_speed_are_their_sums_at_that_speed() {
+        let [m, d, s] = matrices(40);
+        let speeds: [f64; LANES] = std::array::from_fn(|k| 1.0 + 0.01 * k as f64);
+        let layout = Arc::new(BandLayout::new(&[&m, &d, &s]));
+        let [mass, damping, stiffness] = [&m, &d, &s].map(|a| layout.scatter(a));
+        let mut lu = BandLuLanes::new(layout);
+        // G of the pattern of S, K_c of that of D.
+        let [gyroscopic, circulatory] =
+            [(0.03, &s), (0.2, &d)].map(|(factor, a)| lu.layout.scatter(&SparseMatrix::sum(&[(factor, a)])));
+        lu.set_speeds([&mass, &gyroscopic, &damping, &stiffness, &circulatory], &speeds);
         let found = solved(&mut lu).unwrap();
-        for (k, system) in systems.iter().enumerate() {
-            let own = solution(system, [omega(k); LANES]).unwrap();
-            assert!(
-                found
-                    .iter()
-                    .zip(&own)
-                    .all(|(a, b)| (a.lane(k) - b.lane(0)).norm() < 1e-11 * b.lane(0).norm())
-            );
+        for (k, w) in speeds.into_iter().enumerate() {
+            let at = [
+                m.clone(),
+                SparseMatrix::sum(&[(1.0, &d), (0.03 * w, &s)]),
+                SparseMatrix::sum(&[(1.0, &s), (0.2 * w, &d)]),
+            ];
+            let own = solution(&at, [w; LANES]).unwrap();
+            let near = |(a, b): (&ComplexLanes, &ComplexLanes)| {
+                (a.lane(k) - b.lane(0)).norm() < 1e-11 * b.lane(0).norm()
+            };
+            assert!(found.iter().zip(&own).all(near));
         }
-        let last = systems.len() - 1;
-        assert!(found.iter().all(|x| x.lane(LANES - 1) == x.lane(last)));
     }
 
     #[test]

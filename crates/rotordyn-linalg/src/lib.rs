@@ -5,6 +5,7 @@
 //! | [`sparse`] | [`Triplets`] for assembly, [`SparseMatrix`] (compressed columns, CSC), [`SparseRow`] |
 //! | [`band_lu`] | reverse Cuthill-McKee ordering, [`BandLayout`] and banded LU ([`BandLu`]), real and complex |
 //! | [`band_lu_lanes`] | the same of several complex matrices at once ([`BandLuLanes`]) |
+//! | [`complex_lanes`] | complex numbers of several matrices side by side |
 //! | [`band_matrix`] | the banded [`BandMatrix`] in natural order |
 //! | [`fft_length`](mod@fft_length) | efficient lengths for fast Fourier transforms |
 //! | [`gmres`](mod@gmres) | preconditioned GMRES |
@@ -24,11 +25,13 @@
 //! | [`small_dense`] | small dense linear systems |
 //! | [`spline`] | interpolating cubic spline |
 //! | `stop` | a request to end a computation ([`StopRequest`]) |
+//! | [`workspaces`] | memory that tasks take in turn |
 
 mod arnoldi;
 pub mod band_lu;
 pub mod band_lu_lanes;
 pub mod band_matrix;
+pub mod complex_lanes;
 mod coupled_group;
 pub mod dense_lu;
 pub mod dot;
@@ -49,6 +52,7 @@ pub mod small_dense;
 pub mod sparse;
 pub mod spline;
 mod stop;
+pub mod workspaces;
 
 pub use band_lu::{BandLayout, BandLu, ZeroPivot};
 pub use band_lu_lanes::BandLuLanes;

@@ -5,7 +5,8 @@ use crate::assembly::rigid_body_modes::unconstrained_motion;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use crate::model::Quantity;
 use rayon::prelude::*;
-use rotordyn_linalg::band_lu_lanes::{ComplexLanes, LANES, dot_lanes};
+use rotordyn_linalg::complex_lanes::{ComplexLanes, LANES, dot_lanes};
+use rotordyn_linalg::workspaces::Workspaces;
 use rotordyn_linalg::{Complex64, SparseRow, ZeroPivot};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -37,39 +38,63 @@ pub fn frf(
     responses: &[SparseRow],
     quantity: Quantity,
 ) -> Result<Frf, PhysicsError> {
-    let reached: Vec<usize> = excitations.iter().flat_map(|e| e.0.iter().map(|&(i, _)| i)).collect();
-    let harmonic = HarmonicSystem::new(system, Some(&reached));
-    let at = Responses { harmonic: &harmonic, excitations, responses, quantity };
-    let singular = |(hz, pivot): (f64, ZeroPivot)| PhysicsError::Singular {
-        motion: format!("at {hz} Hz {}", unconstrained_motion(assembly, system, pivot.unknown)),
-    };
-    // Groups of frequencies do not depend on the number of threads, nor does the result.
-    let columns: Vec<Vec<Vec<Complex64>>> = frequencies
-        .par_chunks(LANES)
-        .map_init(
-            || (harmonic.solver(), harmonic.lanes()),
-            |(solver, lanes), hz| match lanes.as_mut().and_then(|lanes| at.several(lanes, hz)) {
-                Some(columns) => Ok(columns),
-                None => hz.iter().map(|&hz| at.one(solver, hz).map_err(|e| singular((hz, e)))).collect(),
-            },
-        )
-        .collect::<Result<_, PhysicsError>>()?;
-
-    let value = |r: usize, e: usize| columns.iter().flatten().map(|c| c[e * responses.len() + r]).collect();
+    let columns = FrfSolver::new(assembly, system, excitations, responses, quantity).at(frequencies)?;
+    let value = |r: usize, e: usize| columns.iter().map(|c| c[e * responses.len() + r]).collect();
     let values =
         (0..responses.len()).map(|r| (0..excitations.len()).map(|e| value(r, e)).collect()).collect();
     Ok(Frf { frequencies: frequencies.to_vec(), quantity, values })
 }
 
-/// The wanted responses at one or several frequencies \[Hz\], those to the first excitation first.
-struct Responses<'a> {
-    harmonic: &'a HarmonicSystem<'a>,
+/// The system of [`frf`], for frequencies that are not known at once.
+pub struct FrfSolver<'a> {
+    assembly: &'a Assembly,
+    system: &'a LinearSystem,
+    harmonic: HarmonicSystem<'a>,
     excitations: &'a [SparseRow],
     responses: &'a [SparseRow],
     quantity: Quantity,
+    memory: Workspaces<Option<HarmonicLanes>>,
 }
 
-impl Responses<'_> {
+impl<'a> FrfSolver<'a> {
+    /// A linear system, rows of its excitations and responses, and the quantity of the latter, as in [`frf`].
+    pub fn new(
+        assembly: &'a Assembly,
+        system: &'a LinearSystem,
+        excitations: &'a [SparseRow],
+        responses: &'a [SparseRow],
+        quantity: Quantity,
+    ) -> Self {
+        let reached: Vec<usize> = excitations.iter().flat_map(|e| e.0.iter().map(|&(i, _)| i)).collect();
+        let harmonic = HarmonicSystem::new(system, Some(&reached));
+        Self { assembly, system, harmonic, excitations, responses, quantity, memory: Workspaces::default() }
+    }
+
+    /// The responses at every frequency \[Hz\], those to the first excitation first.
+    ///
+    /// # Errors
+    /// As [`frf`].
+    pub fn at(&self, frequencies: &[f64]) -> Result<Vec<Vec<Complex64>>, PhysicsError> {
+        let singular = |(hz, pivot): (f64, ZeroPivot)| PhysicsError::Singular {
+            motion: format!("at {hz} Hz {}", unconstrained_motion(self.assembly, self.system, pivot.unknown)),
+        };
+        // Groups of frequencies do not depend on the number of threads, nor does the result.
+        let columns: Vec<Vec<Vec<Complex64>>> = frequencies
+            .par_chunks(LANES)
+            .map_init(
+                || (None, self.memory.take(|| self.harmonic.lanes())),
+                |(solver, lanes), hz| {
+                    if let Some(columns) = lanes.as_mut().and_then(|lanes| self.several(lanes, hz)) {
+                        return Ok(columns);
+                    }
+                    let solver = solver.get_or_insert_with(|| self.harmonic.solver());
+                    hz.iter().map(|&hz| self.one(solver, hz).map_err(|e| singular((hz, e)))).collect()
+                },
+            )
+            .collect::<Result<_, PhysicsError>>()?;
+        Ok(columns.into_iter().flatten().collect())
+    }
+
     fn one(&self, solver: &mut HarmonicSolver, hz: f64) -> Result<Vec<Complex64>, ZeroPivot> {
         let omega = hz * TAU;
         solver.factor(omega)?;
@@ -91,7 +116,7 @@ impl Responses<'_> {
         // At rest a rigid-body mode is singular to the last digit: found with the rounding of one matrix.
         (!hz.contains(&0.0)).then_some(())?;
         let omega = std::array::from_fn(|k| hz.get(k).copied().unwrap_or(last) * TAU);
-        lanes.factor(self.harmonic, &omega).then_some(())?;
+        lanes.factor(&self.harmonic, &omega).then_some(())?;
         let size = self.excitations.len() * self.responses.len();
         let mut columns = vec![Vec::with_capacity(size); hz.len()];
         let mut q = vec![ComplexLanes::default(); self.harmonic.size()];

@@ -2,7 +2,7 @@
 
 use crate::assembly::{LinearSystem, ModalDamping};
 use nalgebra::{DMatrix, DVector};
-use rotordyn_linalg::band_lu_lanes::{ComplexLanes, LANES};
+use rotordyn_linalg::complex_lanes::{ComplexLanes, LANES};
 use rotordyn_linalg::refinement::{NEGLIGIBLE, PreciseResidual, complex_values, refine, relative_size};
 use rotordyn_linalg::{BandLayout, BandLu, BandLuLanes, Complex64, ZeroPivot, gmres};
 use std::collections::HashSet;
@@ -48,8 +48,7 @@ impl<'a> HarmonicSystem<'a> {
     /// more than one solution each.
     pub fn lanes(&self) -> Option<HarmonicLanes> {
         let direct = self.modal.is_none() && !has_round_off(&self.layout);
-        direct
-            .then(|| HarmonicLanes { layout: self.layout.clone(), lu: BandLuLanes::new(self.layout.clone()) })
+        direct.then(|| HarmonicLanes { lu: BandLuLanes::new(self.layout.clone()) })
     }
 
     /// Memory for the solution at one frequency after another.
@@ -58,44 +57,15 @@ impl<'a> HarmonicSystem<'a> {
     }
 }
 
-/// The factorised dynamic stiffness at [`LANES`] frequencies, or of as many systems.
+/// The factorised dynamic stiffness at [`LANES`] frequencies.
 pub struct HarmonicLanes {
-    layout: Arc<BandLayout>,
     lu: BandLuLanes,
 }
 
 impl HarmonicLanes {
-    /// Memory for the groups of unknowns of these systems coupled to those in `reached`: `memory`, which was made for the
-    /// same unknowns, if it suits. `None` for systems of several sparsities, or with modal damping or round-off, which
-    /// take more than one solution each.
-    pub fn of_systems(systems: &[LinearSystem], reached: &[usize], memory: Option<Self>) -> Option<Self> {
-        let first = systems.first()?;
-        let layout = &first.layout;
-        let alike = |system: &LinearSystem| {
-            system.modal.is_none()
-                && system.mass.same_pattern(&first.mass)
-                && system.damping.same_pattern(&first.damping)
-                && system.stiffness.same_pattern(&first.stiffness)
-        };
-        if !systems.iter().all(alike) || has_round_off(layout) {
-            return None;
-        }
-        let suits = |lanes: &Self| Arc::ptr_eq(&lanes.layout, layout);
-        memory.filter(suits).or_else(|| {
-            let lu = BandLuLanes::new(Arc::new(layout.restricted_to(reached)));
-            Some(Self { layout: layout.clone(), lu })
-        })
-    }
-
     /// Factorises a system at angular frequencies ω \[rad/s\]; false where they are to be taken one by one.
     pub fn factor(&mut self, of: &HarmonicSystem, omega: &[f64; LANES]) -> bool {
         self.lu.set_frequencies([&of.mass, &of.damping, &of.stiffness], omega);
-        self.lu.factor()
-    }
-
-    /// Factorises systems at their speeds, for synchronous motion; false where they are to be taken one by one.
-    pub fn factor_synchronous(&mut self, systems: &[LinearSystem]) -> bool {
-        self.lu.set_systems(systems.iter().map(|s| ([&s.mass, &s.damping, &s.stiffness], s.speed)));
         self.lu.factor()
     }
 
@@ -106,7 +76,7 @@ impl HarmonicLanes {
 }
 
 /// Whether round-off of direct solutions may show.
-fn has_round_off(layout: &BandLayout) -> bool {
+pub(super) fn has_round_off(layout: &BandLayout) -> bool {
     layout.groups().any(|group| group.len() >= MANY_UNKNOWNS)
 }
 

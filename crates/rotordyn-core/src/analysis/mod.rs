@@ -22,6 +22,7 @@
 //! | [`stability`] | stability thresholds: speeds where a mode's damping vanishes |
 //! | [`frf`] | frequency response functions at a fixed speed |
 //! | [`harmonic`] | steady harmonic response of a linear system, the common solver of FRF and unbalance |
+//! | [`synchronous`] | dynamic stiffness of synchronous motion at several speeds at once |
 //! | [`table_range`] | speeds beyond the tables of bearings |
 //! | [`unbalance`] | steady-state (synchronous) response to unbalance over speed |
 
@@ -50,6 +51,7 @@ pub mod separation;
 pub mod shaft_loads;
 pub mod stability;
 pub mod support_forces;
+pub mod synchronous;
 pub mod table_range;
 pub mod torsional;
 pub mod unbalance;

@@ -58,24 +58,34 @@ pub fn refine<T, E>(
             }
         });
     }
-    let mut samples: Vec<(f64, T, Vec<Complex64>)> = Vec::new();
+    let mut samples: Vec<Sample<T>> = Vec::new();
     let most = points.len() + MAX_ADDED;
     let mut new = points;
     for _ in 0..=MAX_ROUNDS {
         let found = evaluate(&new)?;
-        samples.extend(new.iter().zip(found).map(|(&x, sample)| {
-            let values = curves(&sample);
-            (x, sample, values)
+        samples.extend(new.iter().zip(found).map(|(&at, of)| {
+            let values = curves(&of);
+            let squares = values.iter().map(Complex64::norm_sqr).collect();
+            Sample { at, of, values, squares }
         }));
-        samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+        samples.sort_by(|a, b| a.at.total_cmp(&b.at));
         new = if grid.len() >= 2 { midpoints(&samples, poles) } else { Vec::new() };
         if new.is_empty() || samples.len() + new.len() > most {
             break;
         }
     }
-    let points: Vec<f64> = samples.iter().map(|s| s.0).collect();
+    let points: Vec<f64> = samples.iter().map(|s| s.at).collect();
     let requested = grid.iter().map(|x| points.partition_point(|p| p < x)).collect();
-    Ok(RefinedGrid { points, samples: samples.into_iter().map(|s| s.1).collect(), requested })
+    Ok(RefinedGrid { points, samples: samples.into_iter().map(|s| s.of).collect(), requested })
+}
+
+/// A sample at a point.
+struct Sample<T> {
+    at: f64,
+    of: T,
+    /// Amplitudes of its curves, and their squared absolute values.
+    values: Vec<Complex64>,
+    squares: Vec<f64>,
 }
 
 /// Points around a pole within the grid, if the grid is not as fine there.
@@ -91,19 +101,26 @@ fn around(pole: &Pole, grid: &[f64]) -> Vec<f64> {
 }
 
 /// Midpoints of the intervals beside points that deviate from the line between their neighbours.
-fn midpoints<T>(samples: &[(f64, T, Vec<Complex64>)], poles: &[Pole]) -> Vec<f64> {
-    let count = samples.first().map_or(0, |s| s.2.len());
-    let peak = |c: usize| samples.iter().map(|s| s.2[c].norm()).filter(|a| a.is_finite()).fold(0.0, f64::max);
-    let peaks: Vec<f64> = (0..count).map(peak).collect();
+///
+/// Squares are compared, which takes no square roots.
+fn midpoints<T>(samples: &[Sample<T>], poles: &[Pole]) -> Vec<f64> {
+    let count = samples.first().map_or(0, |s| s.squares.len());
+    let mut peaks = vec![0.0_f64; count];
+    for sample in samples {
+        let finite = peaks.iter_mut().zip(&sample.squares).filter(|(_, square)| square.is_finite());
+        finite.for_each(|(peak, square)| *peak = peak.max(*square));
+    }
     let largest = peaks.iter().copied().fold(0.0, f64::max);
+    let shown: Vec<usize> =
+        (0..count).filter(|&k| peaks[k] > SMALLEST_CURVE * SMALLEST_CURVE * largest).collect();
     let mut split = vec![false; samples.len()];
     for i in 1..samples.len().saturating_sub(1) {
         let [a, b, c] = [&samples[i - 1], &samples[i], &samples[i + 1]];
-        let part = (b.0 - a.0) / (c.0 - a.0);
-        let bends = (0..count).filter(|&k| peaks[k] > SMALLEST_CURVE * largest).any(|k| {
-            let [p, q, r] = [a.2[k], b.2[k], c.2[k]];
-            let local = p.norm().max(q.norm()).max(r.norm()).max(FLOOR * peaks[k]);
-            (q - (p + (r - p) * part)).norm() > TOLERANCE * local
+        let part = (b.at - a.at) / (c.at - a.at);
+        let bends = shown.iter().any(|&k| {
+            let [p, q, r] = [a.values[k], b.values[k], c.values[k]];
+            let local = a.squares[k].max(b.squares[k]).max(c.squares[k]).max(FLOOR * FLOOR * peaks[k]);
+            (q - (p + (r - p) * part)).norm_sqr() > TOLERANCE * TOLERANCE * local
         });
         if bends {
             (split[i - 1], split[i]) = (true, true);
@@ -115,7 +132,7 @@ fn midpoints<T>(samples: &[(f64, T, Vec<Complex64>)], poles: &[Pole]) -> Vec<f64
     };
     (0..samples.len().saturating_sub(1))
         .filter(|&i| split[i])
-        .map(|i| [samples[i].0, samples[i + 1].0])
+        .map(|i| [samples[i].at, samples[i + 1].at])
         .filter(|[low, high]| high - low > 4.0 * SMALLEST_STEP * high && !near_undamped(*low, *high))
         .map(|[low, high]| 0.5 * (low + high))
         .collect()

@@ -2,14 +2,16 @@
 
 use super::campbell::Tangents;
 use super::frf::derivative_factor;
-use super::harmonic::{HarmonicLanes, HarmonicSystem};
+use super::harmonic::HarmonicSystem;
 use super::mode_kind::whirl_index;
+use super::synchronous::SynchronousLanes;
 use crate::assembly::rigid_body_modes::unconstrained_motion;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError, Site};
 use crate::model::Quantity;
 use rayon::prelude::*;
 use rotordyn_bearing::SiteTangent;
-use rotordyn_linalg::band_lu_lanes::{ComplexLanes, LANES};
+use rotordyn_linalg::complex_lanes::{ComplexLanes, LANES};
+use rotordyn_linalg::workspaces::{Workspace, Workspaces};
 use rotordyn_linalg::{Complex64, SparseRow};
 
 /// Complex amplitudes q(t) = Re(Q e^{jΩt}) at one speed.
@@ -69,21 +71,47 @@ pub fn response<T: Send>(
     tangents: &impl Tangents,
     observe: impl Fn(UnbalanceMotion) -> T + Sync,
 ) -> Result<Vec<T>, PhysicsError> {
-    // Groups of speeds do not depend on the number of threads, nor does the result.
-    let motions = |memory: &mut Option<HarmonicLanes>, speeds: &[f64]| -> Result<Vec<T>, PhysicsError> {
-        let tangents: Vec<_> = speeds.iter().map(|&speed| tangents(speed)).collect::<Result<_, _>>()?;
-        let systems: Vec<_> = speeds
-            .iter()
-            .zip(&tangents)
-            .map(|(&speed, tangents)| LinearSystem::new(assembly, tangents, speed))
-            .collect::<Result<_, _>>()?;
-        let amplitudes = amplitudes(assembly, &systems, memory)?;
-        let found = amplitudes.into_iter().zip(speeds).zip(&tangents);
-        Ok(found.map(|((q, &speed), tangents)| observe(motion(assembly, speed, tangents, q))).collect())
-    };
-    let found: Vec<Vec<T>> =
-        speeds.par_chunks(LANES).map_init(|| None, motions).collect::<Result<_, PhysicsError>>()?;
-    Ok(found.into_iter().flatten().collect())
+    UnbalanceSolver::new(assembly, tangents).response(speeds, observe)
+}
+
+/// The machine of [`response`], for speeds that are not known at once.
+pub struct UnbalanceSolver<'a, B> {
+    assembly: &'a Assembly,
+    tangents: &'a B,
+    memory: Workspaces<Option<SynchronousLanes>>,
+}
+
+impl<'a, B: Tangents> UnbalanceSolver<'a, B> {
+    /// A machine and the tangents of its bearings.
+    pub fn new(assembly: &'a Assembly, tangents: &'a B) -> Self {
+        Self { assembly, tangents, memory: Workspaces::default() }
+    }
+
+    /// What `observe` takes from the motion at every speed \[rad/s\].
+    ///
+    /// # Errors
+    /// As [`response`].
+    pub fn response<T: Send>(
+        &self,
+        speeds: &[f64],
+        observe: impl Fn(UnbalanceMotion) -> T + Sync,
+    ) -> Result<Vec<T>, PhysicsError> {
+        // Groups of speeds do not depend on the number of threads, nor does the result.
+        let motions = |memory: &mut Workspace<Option<SynchronousLanes>>, speeds: &[f64]| {
+            let at = |&speed: &f64| (self.tangents)(speed);
+            let tangents: Vec<_> = speeds.iter().map(at).collect::<Result<_, _>>()?;
+            let amplitudes = amplitudes(self.assembly, speeds, &tangents, memory)?;
+            let motion = |((q, &speed), tangents): ((Vec<Complex64>, &f64), &Vec<SiteTangent>)| {
+                observe(motion(self.assembly, speed, tangents, q))
+            };
+            Ok(amplitudes.into_iter().zip(speeds).zip(&tangents).map(motion).collect())
+        };
+        let found: Vec<Vec<T>> = speeds
+            .par_chunks(LANES)
+            .map_init(|| self.memory.take(|| None), motions)
+            .collect::<Result<_, PhysicsError>>()?;
+        Ok(found.into_iter().flatten().collect())
+    }
 }
 
 fn motion(
@@ -100,49 +128,56 @@ fn motion(
 /// Amplitudes Q at up to [`LANES`] speeds, all at once where their matrices allow it.
 fn amplitudes(
     assembly: &Assembly,
-    systems: &[LinearSystem],
-    memory: &mut Option<HarmonicLanes>,
+    speeds: &[f64],
+    tangents: &[Vec<SiteTangent>],
+    memory: &mut Option<SynchronousLanes>,
 ) -> Result<Vec<Vec<Complex64>>, PhysicsError> {
-    let loads: Vec<Vec<Complex64>> = systems.iter().map(|s| assembly.unbalance_amplitude(s.speed)).collect();
-    if let Some(found) = amplitudes_at_once(systems, &loads, memory) {
+    let loads: Vec<Vec<Complex64>> =
+        speeds.iter().map(|&speed| assembly.unbalance_amplitude(speed)).collect();
+    if let Some(found) = amplitudes_at_once(assembly, speeds, tangents, &loads, memory) {
         return Ok(found);
     }
-    let one = |(system, mut amplitude): (&LinearSystem, Vec<Complex64>)| {
-        let harmonic = HarmonicSystem::new(system, Some(&reached(&amplitude)));
+    let one = |((&speed, tangents), mut amplitude): ((&f64, &Vec<SiteTangent>), Vec<Complex64>)| {
+        let system = LinearSystem::new(assembly, tangents, speed)?;
+        let harmonic = HarmonicSystem::new(&system, Some(&reached(&amplitude)));
         let mut solver = harmonic.solver();
-        solver.factor(system.speed).map_err(|pivot| PhysicsError::Singular {
-            motion: unconstrained_motion(assembly, system, pivot.unknown),
+        solver.factor(speed).map_err(|pivot| PhysicsError::Singular {
+            motion: unconstrained_motion(assembly, &system, pivot.unknown),
         })?;
         solver.solve(&mut amplitude);
         Ok(amplitude)
     };
-    systems.iter().zip(loads).map(one).collect()
+    speeds.iter().zip(tangents).zip(loads).map(one).collect()
 }
 
 /// The same in one factorisation; `None` where the speeds are to be taken one by one.
 fn amplitudes_at_once(
-    systems: &[LinearSystem],
+    assembly: &Assembly,
+    speeds: &[f64],
+    tangents: &[Vec<SiteTangent>],
     loads: &[Vec<Complex64>],
-    memory: &mut Option<HarmonicLanes>,
+    memory: &mut Option<SynchronousLanes>,
 ) -> Option<Vec<Vec<Complex64>>> {
-    let (first, others) = loads.split_first()?;
+    let ((first, others), bearings) = (loads.split_first()?, tangents.first()?);
     let (rows, alone) = (reached(first), others.is_empty());
     // At standstill nothing is reached.
     if alone || rows.is_empty() || others.iter().any(|load| reached(load) != rows) {
         return None;
     }
-    let mut lanes = HarmonicLanes::of_systems(systems, &rows, memory.take())?;
-    let whole = lanes.factor_synchronous(systems);
-    let found = whole.then(|| {
+    if memory.as_ref().is_none_or(|lanes| !lanes.suits(bearings, &rows)) {
+        *memory = SynchronousLanes::new(assembly, bearings, &rows);
+    }
+    let lanes = memory.as_mut()?;
+    let whole =
+        tangents.iter().all(|tangents| lanes.suits(tangents, &rows)) && lanes.factor(speeds, tangents);
+    whole.then(|| {
         let mut q = vec![ComplexLanes::default(); first.len()];
         for (lane, load) in loads.iter().enumerate() {
             q.iter_mut().zip(load).for_each(|(q, &f)| q.set_lane(lane, f));
         }
         lanes.solve(&mut q);
         (0..loads.len()).map(|lane| q.iter().map(|q| q.lane(lane)).collect()).collect()
-    });
-    *memory = Some(lanes);
-    found
+    })
 }
 
 /// Unknowns that a load acts on.

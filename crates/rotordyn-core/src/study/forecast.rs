@@ -24,6 +24,8 @@ const MAX_TIMED_SECONDS: f64 = 0.2;
 /// Work below which the time is not measured: it is seconds at most.
 const SMALL_STEPS: f64 = 1e6;
 const SMALL_SOLUTIONS: f64 = 2000.0;
+/// The same for solutions × degrees of freedom: minutes at most, with the dense matrices of modal damping.
+const SMALL_UNKNOWNS: f64 = 2e6;
 /// Points of a measurement of the time per linear solution.
 const TIMED_POINTS: usize = 16;
 /// Bytes of a number, and of a complex one.
@@ -313,7 +315,8 @@ impl Machine {
             Work::Solutions => SMALL_SOLUTIONS,
             Work::Frames => f64::INFINITY,
         };
-        if forecast.count < small {
+        let unknowns = forecast.count * self.assembly.dofs.len() as f64;
+        if forecast.count < small || (forecast.work == Work::Solutions && unknowns < SMALL_UNKNOWNS) {
             return None;
         }
         let studies = &self.model.studies;

@@ -2,13 +2,13 @@
 
 use super::Machine;
 use super::unbalance_loads::{UnbalanceSample, bearing_displacements};
-use crate::analysis::frf::{self, Frf, derivative_factor};
+use crate::analysis::frf::{Frf, FrfSolver, derivative_factor};
 use crate::analysis::peaks::peaks;
 use crate::analysis::poles::{Pole, frf_poles, synchronous_poles};
 use crate::analysis::refine::{RefinedGrid, refine};
 use crate::analysis::section_loads::ShaftSections;
 use crate::analysis::separation::separation_margins;
-use crate::analysis::unbalance::{self, Orbit, UnbalanceMotion};
+use crate::analysis::unbalance::{Orbit, UnbalanceMotion, UnbalanceSolver};
 use crate::assembly::PhysicsError;
 use crate::element::Anchor;
 use crate::model::study::{Excitation, FrfStudy, UnbalanceStudy};
@@ -40,12 +40,10 @@ impl Machine {
         let (f, q) = (&study.frequencies, study.quantity);
         let highest = f.iter().copied().fold(0.0, f64::max);
         let poles = if highest > 0.0 { frf_poles(&self.assembly, &system, highest)? } else { Vec::new() };
-        let evaluate = |hz: &[f64]| -> Result<Vec<Vec<Complex64>>, PhysicsError> {
-            if self.has_whirl_tables() {
-                return self.frf_at_whirl(study.speed, hz, [&excitations, &responses], q);
-            }
-            let found = frf::frf(&self.assembly, &system, hz, &excitations, &responses, q)?;
-            Ok((0..hz.len()).map(|k| found.values.iter().flatten().map(|h| h[k]).collect()).collect())
+        let solver = FrfSolver::new(&self.assembly, &system, &excitations, &responses, q);
+        let evaluate = |hz: &[f64]| match self.has_whirl_tables() {
+            true => self.frf_at_whirl(study.speed, hz, [&excitations, &responses], q),
+            false => solver.at(hz),
         };
         let RefinedGrid { points, samples, requested } =
             refined(f, &poles, study.refine, evaluate, |h| h.clone())?;
@@ -62,7 +60,7 @@ impl Machine {
         };
         let undamped = undamped_peaks(&poles, &points, appears_in);
         let value = |r: usize, e: usize| -> Vec<Complex64> {
-            let (at, name) = (r * excitations.len() + e, name(r, e));
+            let (at, name) = (e * responses.len() + r, name(r, e));
             let values = samples.iter().map(|sample| sample[at]).collect();
             with_infinite(&points, values, &undamped, &name)
         };
@@ -88,7 +86,7 @@ impl Machine {
         })
     }
 
-    /// The FRFs of all responses and excitations at every frequency \[Hz\], with the bearings at that whirl frequency.
+    /// As [`FrfSolver::at`], with the bearings at the whirl frequency.
     fn frf_at_whirl(
         &self,
         speed: f64,
@@ -99,10 +97,10 @@ impl Machine {
         let tangents = self.tangents(speed, true)?;
         let at = |&hz: &f64| {
             let system = self.linear_system_with_whirl(&tangents, speed, hz * TAU)?;
-            let found = frf::frf(&self.assembly, &system, &[hz], excitations, responses, quantity)?;
-            Ok(found.values.iter().flatten().map(|h| h[0]).collect())
+            FrfSolver::new(&self.assembly, &system, excitations, responses, quantity).at(&[hz])
         };
-        frequencies.par_iter().map(at).collect()
+        let found: Vec<_> = frequencies.par_iter().map(at).collect::<Result<_, PhysicsError>>()?;
+        Ok(found.into_iter().flatten().collect())
     }
 
     /// Steady unbalance response over speed.
@@ -138,7 +136,8 @@ impl Machine {
         let observe = |motion: UnbalanceMotion| self.observe(motion, &observed, &shaft);
         let path = self.equilibrium_path(&study.speeds, study.speeds.len());
         let tangents = |speed| self.tangents_on(path.as_ref(), speed);
-        let evaluate = |speeds: &[f64]| unbalance::response(&self.assembly, speeds, &tangents, observe);
+        let solver = UnbalanceSolver::new(&self.assembly, &tangents);
+        let evaluate = |speeds: &[f64]| solver.response(speeds, observe);
         let RefinedGrid { points: speeds, samples, requested } =
             refined(&study.speeds, &poles, study.refine, evaluate, |sample| sample.observed.clone())?;
         let along = |row: usize, quantity| -> Vec<Complex64> {
