@@ -25,6 +25,7 @@
 //! | [`small_dense`] | small dense linear systems |
 //! | [`spline`] | interpolating cubic spline |
 //! | `stop` | a request to end a computation ([`StopRequest`]) |
+//! | `wide` | code compiled for the widest vectors of the processor ([`with_widest_vectors`]) |
 //! | [`workspaces`] | memory that tasks take in turn |
 
 mod arnoldi;
@@ -52,6 +53,7 @@ pub mod small_dense;
 pub mod sparse;
 pub mod spline;
 mod stop;
+mod wide;
 pub mod workspaces;
 
 pub use band_lu::{BandLayout, BandLu, ZeroPivot};
@@ -66,6 +68,7 @@ pub use layout_cache::LayoutCache;
 pub use piecewise::{Outside, piecewise, piecewise_within};
 pub use sparse::{SparseMatrix, SparseRow, Triplets};
 pub use stop::StopRequest;
+pub use wide::with_widest_vectors;
 
 pub use num_complex::Complex;
 

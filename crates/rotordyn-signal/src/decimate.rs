@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::kaiser::kaiser;
 use super::resample::SAMPLES_PER_ORDER;
 use rotordyn_linalg::dot::dot_in_sixteens;
+use rotordyn_linalg::with_widest_vectors;
 
 /// Kaiser window shape for −100 dB in the stop band.
 const KAISER_BETA: f64 = 10.06;
@@ -97,12 +98,24 @@ impl Decimator {
         let Self { half, weights, values, first, frames, zeros, .. } = &*self;
         let inside = centre >= *half && centre + half < *frames;
         let is_zero = inside && centre - half >= frames - zeros;
+        if inside && !is_zero {
+            let begin = centre - half - first;
+            with_widest_vectors(
+                #[inline(always)]
+                || {
+                    out.extend(values.iter().map(
+                        #[inline(always)]
+                        |values| dot_in_sixteens(weights, &values[begin..begin + weights.len()]),
+                    ))
+                },
+            );
+            self.next += 1;
+            self.drop_frames();
+            return true;
+        }
         for values in values {
             out.push(if is_zero {
                 0.0
-            } else if inside {
-                let begin = centre - half - first;
-                dot_in_sixteens(weights, &values[begin..begin + weights.len()])
             } else {
                 let last = *frames as isize - 1;
                 let at = |index: isize| values[index.clamp(*first as isize, last) as usize - first];

@@ -9,6 +9,7 @@ use super::kaiser::kaiser;
 use super::stft::interpolate_at;
 use rotordyn_linalg::dot::dot_in_sixteens;
 use rotordyn_linalg::spline::Spline;
+use rotordyn_linalg::with_widest_vectors;
 
 /// Zero crossings of the interpolating sinc on each side.
 const ZERO_CROSSINGS: usize = 32;
@@ -177,6 +178,14 @@ impl AnglePart {
     }
 
     fn resample(&self, channels: &[&[f64]], kernel: &[f64]) -> Vec<Vec<f64>> {
+        with_widest_vectors(
+            #[inline(always)]
+            || self.sums(channels, kernel),
+        )
+    }
+
+    #[inline(always)]
+    fn sums(&self, channels: &[&[f64]], kernel: &[f64]) -> Vec<Vec<f64>> {
         let reach = ZERO_CROSSINGS as f64 / CUTOFF;
         let scale = CUTOFF * TABLE_STEPS as f64;
         let clock = &self.clock;

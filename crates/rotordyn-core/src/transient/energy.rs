@@ -12,6 +12,7 @@ use super::torque::DriveEnergy;
 use crate::model::Spin;
 use rotordyn_bearing::{Reaction, Rotation};
 use rotordyn_linalg::dot::dot_in_sixteens;
+use rotordyn_linalg::with_widest_vectors;
 
 /// Energy balance \[J\]: kinetic + strain + contact = start + work + drive + parametric − losses + residual.
 #[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
@@ -124,6 +125,14 @@ impl EnergyBalance {
 
     /// Adds one step: work of the mean load along the step's displacement, powers by the trapezoidal rule.
     pub fn update(&mut self, system: &System, state: &State) {
+        with_widest_vectors(
+            #[inline(always)]
+            || self.add_step(system, state),
+        );
+    }
+
+    #[inline(always)]
+    fn add_step(&mut self, system: &System, state: &State) {
         let step = state.time - self.time;
         // Slices of one length, for vector instructions.
         let size = state.x.len();
@@ -205,6 +214,7 @@ impl EnergyBalance {
     }
 
     /// Work of the mean loads of the step.
+    #[inline(always)]
     fn work_of_loads(&mut self, system: &System, state: &State) -> f64 {
         let [before, now] = &mut self.factors;
         now.clear();
@@ -222,6 +232,7 @@ impl EnergyBalance {
 
     /// Work of the mean of −(Ω̇ K_s + Ω K_c) x, the left-hand terms that are neither elastic nor damping; under a torque
     /// drive it stays inside the machine.
+    #[inline(always)]
     fn work_of_rotation(&mut self, system: &System, state: &State) -> f64 {
         let panels = &system.panels;
         let with_spin_up = panels.has_spin_up();

@@ -26,6 +26,7 @@ use driven_buffers::DrivenStep;
 use force_history::ForceHistory;
 use interface_newton::InterfaceNewton;
 use rotordyn_bearing::Rotation;
+use rotordyn_linalg::with_widest_vectors;
 use step_matrix::StepMatrices;
 
 /// One-step implicit integrator; owns every buffer, so that a step allocates nothing.
@@ -103,10 +104,15 @@ impl GeneralisedAlpha {
         if let Some(drive) = &system.drive {
             return self.driven_step(system, drive, state, step);
         }
-        self.predict(system, state, step, &spin);
-        self.solve(system, state, step, &spin, true, None)?;
-        self.update(state, step, spin);
-        Ok(())
+        with_widest_vectors(
+            #[inline(always)]
+            || {
+                self.predict(system, state, step, &spin);
+                self.solve(system, state, step, &spin, true, None)?;
+                self.update(state, step, spin);
+                Ok(())
+            },
+        )
     }
 
     /// Fits the inertias of a state to steps of this length, if the scheme fits them, as the next step would.
@@ -121,6 +127,7 @@ impl GeneralisedAlpha {
 
     /// x̂ = x₀ + h v₀ + h² ((½−β) a₀ + β y) and v̂ = v₀ + h ((1−γ) a₀ + γ y) with a₁ = y for ẍ₁ = 0, and the cage angles at
     /// the end of the step.
+    #[inline(always)]
     fn predict(&mut self, system: &System, state: &State, step: f64, spin: &Spin) {
         let Scheme { beta, gamma, .. } = self.scheme;
         let mean = self.scheme.mean();
@@ -141,6 +148,7 @@ impl GeneralisedAlpha {
 
     /// ẍ₁ = F (v̂, x̂, c) + R f₁ + S⁻¹ e, with f₁ from Newton's method on the interface rows and a load e of a torque drive;
     /// unless this is the `first` solution of the step, Newton starts from the forces of the last one.
+    #[inline(always)]
     fn solve(
         &mut self,
         system: &System,
@@ -186,6 +194,7 @@ impl GeneralisedAlpha {
     }
 
     /// x₁ = x̂ + g β h² ẍ₁, v₁ = v̂ + g γ h ẍ₁ and a₁, with the bearing reactions there.
+    #[inline(always)]
     fn update(&mut self, state: &mut State, step: f64, spin: Spin) {
         let gain = self.scheme.gain(step);
         let mean = self.scheme.mean();

@@ -36,6 +36,7 @@ impl ForceHistory {
     }
 
     /// Force at the end of a step from `now` at its start: the polynomial through the last five states or as many as there are.
+    #[inline(always)]
     pub fn extrapolate(&self, now: &[f64], step: f64, out: &mut [f64]) {
         let (of_now, before) = self.weights(step);
         for (out, now) in out.iter_mut().zip(now) {
@@ -49,6 +50,7 @@ impl ForceHistory {
     }
 
     /// Lagrange's weights of the present state and of those before.
+    #[inline(always)]
     fn weights(&self, step: f64) -> (f64, [f64; DEGREE]) {
         let count = if step > LARGEST_GROWTH * self.steps[0] { 0 } else { self.count };
         if self.steps[..count].iter().all(|length| *length == step) {
@@ -73,6 +75,7 @@ impl ForceHistory {
     }
 
     /// Notes the force at the start of a step that was taken.
+    #[inline(always)]
     pub fn push(&mut self, start: &[f64], step: f64) {
         self.count = (self.count + 1).min(DEGREE);
         self.steps.rotate_right(1);

@@ -85,6 +85,7 @@ impl InterfaceNewton {
     }
 
     /// d̄ = W (x̂ + b a) and ḋ̄ = W (v̂ + c a) with the acceleration a without bearing forces.
+    #[inline(always)]
     pub fn set_free_motion(&mut self, system: &System, [x, v, a]: [&DVector<f64>; 3], gain: &NewmarkGain) {
         let n = self.free.len();
         for (start, gain, out) in
@@ -123,6 +124,7 @@ impl InterfaceNewton {
     ///
     /// # Errors
     /// No convergence within the largest number of iterations, a singular Jacobian, or NaN.
+    #[inline(always)]
     pub fn solve(
         &mut self,
         system: &System,
@@ -183,6 +185,7 @@ impl InterfaceNewton {
     }
 
     /// Bearing reactions at the present u; internal coordinates are solved inside.
+    #[inline(always)]
     fn evaluate(&mut self, system: &System, rotations: &[Rotation], gain: &NewmarkGain) {
         let rows = system.rows();
         self.set_row_motion(gain);
@@ -199,6 +202,7 @@ impl InterfaceNewton {
     }
 
     /// Bearing forces at the present u, without tangents.
+    #[inline(always)]
     fn evaluate_forces(&mut self, system: &System, rotations: &[Rotation], gain: &NewmarkGain) {
         self.set_row_motion(gain);
         let none = Bodies { states: &[], rates: &mut [] };
@@ -206,6 +210,7 @@ impl InterfaceNewton {
     }
 
     /// u − Y f.
+    #[inline(always)]
     fn find_residual(&mut self, compliance: &Compliance) {
         compliance.times(&self.force[..self.residual.len()], &mut self.residual);
         for (residual, u) in self.residual.iter_mut().zip(&self.acceleration) {
@@ -214,6 +219,7 @@ impl InterfaceNewton {
     }
 
     /// b K + c C, block by block.
+    #[inline(always)]
     fn set_tangent(&mut self, system: &System, gain: &NewmarkGain) {
         for (interface, reaction) in system.interfaces.iter().zip(&self.reactions) {
             let (own, count) = (interface.row_range(), interface.rows);
@@ -235,6 +241,7 @@ impl InterfaceNewton {
     }
 
     /// u ← u − Δ; the row with the largest change of displacement, and that change.
+    #[inline(always)]
     fn correct(&mut self, gain: &NewmarkGain) -> (usize, f64) {
         let (mut largest, mut row) = (0.0, 0);
         for (r, correction) in self.correction.iter().enumerate() {
@@ -249,6 +256,7 @@ impl InterfaceNewton {
 
     /// Applies Newton's last correction to forces and displacements too, so that force and state agree:
     /// f ← f + (b K + c C) Δ.
+    #[inline(always)]
     fn apply_last_correction(&mut self, system: &System, gain: &NewmarkGain) {
         let rows = system.rows();
         let (on_rows, on_internal) = self.force.split_at_mut(rows);
@@ -278,6 +286,7 @@ impl InterfaceNewton {
     }
 
     /// d = d̄ + b u and ḋ = ḋ̄ + c u of the rows.
+    #[inline(always)]
     fn set_row_motion(&mut self, gain: &NewmarkGain) {
         for (r, u) in self.acceleration.iter().enumerate() {
             self.d[r] = self.free_d[r] + gain.position * u;
@@ -291,6 +300,7 @@ impl InterfaceNewton {
     }
 
     /// Writes the solution to a state.
+    #[inline(always)]
     pub fn store(&mut self, state: &mut State) {
         // The next step evaluates all of them again.
         std::mem::swap(&mut state.reactions, &mut self.reactions);

@@ -78,6 +78,7 @@ impl Compliance {
     }
 
     /// Y f.
+    #[inline(always)]
     pub fn times(&self, force: &[f64], out: &mut [f64]) {
         out.fill(0.0);
         self.product.mul_add(force, out);
