@@ -54,8 +54,9 @@ pub fn crossings(
     tangents: &impl Tangents,
 ) -> Result<CrossingList, PhysicsError> {
     let search = Search::new(assembly, tangents, orders, Some(diagram.count));
-    let at =
-        |(speed, modes): (&f64, &Vec<ModeValue>)| Spectrum::new(*speed, modes.iter().map(|m| m.eigenvalue));
+    let at = |(speed, modes): (&f64, &Vec<ModeValue>)| {
+        Spectrum::new(*speed, modes.iter().map(|m| (m.eigenvalue, m.label.clone())))
+    };
     search.run(diagram.speeds.iter().zip(&diagram.all).map(at).collect(), orders)
 }
 

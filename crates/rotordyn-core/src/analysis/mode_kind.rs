@@ -126,11 +126,7 @@ pub(super) fn label(assembly: &Assembly, modes: &mut [Mode]) {
     let mut count: HashMap<String, usize> = HashMap::new();
     let [mut whirling, mut planar, mut mixed] = [0, 0, 0];
     for mode in modes {
-        let name = match mode.kind {
-            ModeKind::Body => body_name(assembly, &mode.energy),
-            kind if assembly.dofs.rigid => kind.name().replace("bending", "rigid-body"),
-            kind => kind.name().into(),
-        };
+        let name = unnumbered(assembly, mode);
         let before = *count.entry(name.clone()).and_modify(|n| *n += 1).or_insert(1) - 1;
         let place = match mode.kind {
             ModeKind::Forward | ModeKind::Backward => before + (planar + mixed) / 2,
@@ -148,6 +144,15 @@ pub(super) fn label(assembly: &Assembly, modes: &mut [Mode]) {
             ModeKind::Body if before == 0 => name,
             _ => format!("{} {name}", ordinal(place + 1)),
         };
+    }
+}
+
+/// The label of a mode without its number.
+pub(super) fn unnumbered(assembly: &Assembly, mode: &Mode) -> String {
+    match mode.kind {
+        ModeKind::Body => body_name(assembly, &mode.energy),
+        kind if assembly.dofs.rigid => kind.name().replace("bending", "rigid-body"),
+        kind => kind.name().into(),
     }
 }
 

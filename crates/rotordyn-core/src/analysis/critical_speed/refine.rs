@@ -144,8 +144,8 @@ fn has_converged(change: f64, last: f64) -> bool {
     change <= TOLERANCE || change < ROUND_OFF && change > 0.25 * last
 }
 
-/// The speed between `from` and `to` where the mode that starts as `start` at a speed has ω_d = n Ω, by the secant
-/// method from there and from `trial`; `None` if it leaves the range.
+/// The speed between `from` and `to` where the mode that starts as `start` at a speed has ω_d = n Ω, and its eigenpair there, by
+/// the secant method from there and from `trial`; `None` if it leaves the range.
 ///
 /// # Errors
 /// Errors of the linearised system.
@@ -155,7 +155,7 @@ pub(super) fn crossing(
     (start_speed, start): (f64, &Eigenpair),
     trial: f64,
     (from, to): (f64, f64),
-) -> Result<Option<(f64, Complex64)>, PhysicsError> {
+) -> Result<Option<(f64, Eigenpair)>, PhysicsError> {
     let gap = |pair: &Eigenpair, speed: f64| pair.0.im - order * speed;
     let mut last = (start_speed, gap(start, start_speed));
     let mut pair = start.clone();
@@ -173,7 +173,7 @@ pub(super) fn crossing(
         let change = step.abs() / speed;
         if now.1 == 0.0 || has_converged(change, last_change) {
             let inside = speed > from - 1e-9 * to && speed <= to * (1.0 + 1e-9);
-            return Ok(inside.then_some((speed, pair.0)));
+            return Ok(inside.then_some((speed, pair)));
         }
         (last, last_change) = (now, change);
         speed += step;

@@ -11,6 +11,7 @@
 use super::{CriticalSpeed, CrossingList, Tangents, UncertainRange, refine, undamped};
 use crate::analysis::campbell::EXTRA_MODES;
 use crate::analysis::modal::{self, Eigenpair};
+use crate::analysis::mode_kind;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use rayon::prelude::*;
 use rotordyn_bearing::SiteTangent;
@@ -27,6 +28,8 @@ const HEAVY_DAMPING: f64 = 0.3;
 const ON_LINE: f64 = 1e-8;
 /// Relative distance of two eigenvalues from which each has a shape of its own.
 const LEAST_GAP: f64 = 1e-5;
+/// Least distance of a crossing from the next one and from the ends of its step, as a fraction of the step.
+const APART: f64 = 1e-5;
 /// Largest number of halvings of a step in which N changes twice.
 const MAX_HALVINGS: usize = 6;
 /// Largest number of halvings of a step to separate its crossings, before each is bracketed.
@@ -35,18 +38,21 @@ const MAX_BRACKETINGS: usize = 80;
 /// Frequencies below this \[rad/s\] are rigid-body modes, see [`krylov`](rotordyn_linalg::krylov).
 const RIGID_BODY: f64 = 1e-3 * modal::SHIFT;
 
-/// Eigenvalues at one speed, by damped frequency. Without their shapes, which would be most of the memory of a search.
+/// Eigenvalues at one speed, by damped frequency, and labels of their modes. Without their shapes, which would be most of the
+/// memory of a search.
 #[derive(Clone, Debug)]
 pub(super) struct Spectrum {
     speed: f64,
     values: Vec<Complex64>,
+    labels: Vec<String>,
 }
 
 impl Spectrum {
-    pub fn new(speed: f64, values: impl IntoIterator<Item = Complex64>) -> Self {
-        let mut values: Vec<Complex64> = values.into_iter().collect();
-        values.sort_by(|a, b| a.im.total_cmp(&b.im));
-        Self { speed, values }
+    pub fn new(speed: f64, modes: impl IntoIterator<Item = (Complex64, String)>) -> Self {
+        let mut modes: Vec<(Complex64, String)> = modes.into_iter().collect();
+        modes.sort_by(|a, b| a.0.im.total_cmp(&b.0.im));
+        let (values, labels) = modes.into_iter().unzip();
+        Self { speed, values, labels }
     }
 
     /// Number of modes below an order line.
@@ -114,8 +120,9 @@ impl<'a, T: Tangents> Search<'a, T> {
             // No order line crosses at standstill.
             return Ok(Spectrum::new(speed, []));
         }
-        let pairs = self.pairs(&self.system(speed)?, guess)?;
-        Ok(Spectrum::new(speed, pairs.into_iter().map(|(value, _)| value)))
+        let system = self.system(speed)?;
+        let modes = modal::modes_of(self.assembly, &system, self.pairs(&system, guess)?);
+        Ok(Spectrum::new(speed, modes.into_iter().map(|mode| (mode.eigenvalue, mode.label))))
     }
 
     fn system(&self, speed: f64) -> Result<LinearSystem, PhysicsError> {
@@ -191,7 +198,7 @@ impl<'a, T: Tangents> Search<'a, T> {
         }
         let system = self.system(speed)?;
         let pairs = self.all_pairs(&system, self.limit.unwrap_or(0) + 8)?;
-        let all = Spectrum::new(speed, pairs.into_iter().map(|(value, _)| value));
+        let all = Spectrum::new(speed, pairs.into_iter().map(|(value, _)| (value, String::new())));
         let counts = orders.iter().map(|&order| all.below(order)).collect();
         Ok(AllBelow { speed, system: Some(system), counts })
     }
@@ -304,21 +311,25 @@ impl<'a, T: Tangents> Search<'a, T> {
         let indices = na.min(nb)..na.max(nb);
         // The end at which the modes of these indices lie below the line, so that both are known there.
         let end = if nb > na { b } else { a };
-        let mut found = ByIndex::new();
         let starts = self.pairs_at(end, indices.clone())?;
+        let mut roots = Vec::with_capacity(starts.len());
         for (index, start) in indices.clone().zip(&starts) {
-            if found.contains_key(&index) {
-                continue;
-            }
-            let ends = (a.speed, b.speed);
             // Linear between both ends, or constant if the frequency is not known at the other.
             let trial = match (a.gap(index, order), b.gap(index, order)) {
                 (Some(ga), Some(gb)) => a.speed + (b.speed - a.speed) * ga / (ga - gb),
                 _ => start.0.im / order,
             };
-            let machine = (self.assembly, self.tangents);
-            let root = refine::crossing(machine, order, (end.speed, start), trial, ends)?;
-            if let Some((speed, _)) = root {
+            let (machine, ends) = ((self.assembly, self.tangents), (a.speed, b.speed));
+            roots.push(refine::crossing(machine, order, (end.speed, start), trial, ends)?);
+        }
+        if let Some(found) = self.each_once([a, b], order, indices.clone(), &roots) {
+            return Ok(found);
+        }
+        let mut found = ByIndex::new();
+        for (index, root) in indices.clone().zip(roots) {
+            if let Some((speed, _)) = root
+                && !found.contains_key(&index)
+            {
                 self.modes_near_line(speed, order, ON_LINE, end.values.len(), &mut found)?;
             }
         }
@@ -341,6 +352,48 @@ impl<'a, T: Tangents> Search<'a, T> {
         let mut found = self.crossings(a, &middle, order, depth - 1)?;
         found.extend(self.crossings(&middle, b, order, depth - 1)?);
         Ok(found)
+    }
+
+    /// The crossings of a step whose modes reach the line one after another, in the order of their indices, and are labelled
+    /// alike at both ends: no other mode has to be known. `None` where this is not so.
+    fn each_once(
+        &self,
+        [a, b]: [&Spectrum; 2],
+        order: f64,
+        indices: Range<usize>,
+        roots: &[Option<(f64, Eigenpair)>],
+    ) -> Option<Vec<CriticalSpeed>> {
+        // With modal damping the iterations end before all digits of a shape.
+        if self.assembly.modal.is_some() || !self.assembly.modal_damping.is_empty() {
+            return None;
+        }
+        let labels = a.labels.get(..indices.end)?;
+        if b.labels.get(..indices.end)? != labels {
+            return None;
+        }
+        let roots: Vec<&(f64, Eigenpair)> = roots.iter().map(Option::as_ref).collect::<Option<_>>()?;
+        let step = b.speed - a.speed;
+        // The lowest mode falls below the line first, the highest rises above it first.
+        let falls = self.below(b, order) > self.below(a, order);
+        let apart = |pair: &[&(f64, Eigenpair)]| {
+            let change = pair[1].0 - pair[0].0;
+            (if falls { change } else { -change }) > APART * step
+        };
+        let inside =
+            |root: &&(f64, Eigenpair)| root.0 > a.speed + APART * step && root.0 < b.speed - APART * step;
+        if !roots.iter().all(inside) || !roots.windows(2).all(apart) {
+            return None;
+        }
+        let crossing = |((speed, (value, shape)), label): (&(f64, Eigenpair), &String)| {
+            let mut mode = mode_kind::characterise(self.assembly, *value, shape.clone());
+            let line = order * speed;
+            let known = label.ends_with(&mode_kind::unnumbered(self.assembly, &mode));
+            (known && (mode.omega() - line).abs() <= ON_LINE * line).then(|| {
+                mode.label.clone_from(label);
+                CriticalSpeed { speed: *speed, order, mode }
+            })
+        };
+        roots.into_iter().zip(&labels[indices]).map(crossing).collect()
     }
 
     /// The speed at which the frequency at an index crosses the line, from the spectra alone: false position with
