@@ -2,7 +2,7 @@
 
 use crate::rig::variant;
 use crate::speed_dependent_bearings::spindle;
-use rotordyn::analysis::equilibrium::{CageTreatment, equilibrium};
+use rotordyn::analysis::equilibrium::{CageTreatment, equilibrium, equilibrium_tangents};
 use rotordyn::analysis::equilibrium_path::EquilibriumPath;
 use rotordyn::linalg::Complex64;
 use rotordyn::model::Model;
@@ -100,7 +100,8 @@ fn equilibria_over_speed_start_from_the_path() {
             equilibrium(model, assembly, speed, averaged, start).unwrap().iterations
         };
         let standstill = equilibrium(model, assembly, 0.0, averaged, None).unwrap().q;
-        let path = EquilibriumPath::new(model, assembly, [0.0, top * RPM], averaged, &standstill).unwrap();
+        let path =
+            EquilibriumPath::new(model, assembly, [0.0, top * RPM], averaged, &standstill, 200).unwrap();
         assert_eq!(path.at(0.0), standstill);
         let speeds = grid(0.0, top * RPM, 50);
         let on = |start: &dyn Fn(f64) -> Vec<f64>| -> usize {
@@ -109,6 +110,42 @@ fn equilibria_over_speed_start_from_the_path() {
         let (from_path, from_standstill) = (on(&|speed| path.at(speed)), on(&|_| standstill.clone()));
         println!("{name}: {from_path} steps from the path, {from_standstill} from standstill");
         assert!(from_path <= speeds.len() && from_standstill > 100, "{name}: {from_path} {from_standstill}");
+    }
+}
+
+/// Tangents from the path are those of the equilibrium, whether balls stay loaded or enter and leave the load zone.
+#[test]
+fn tangents_over_speed_come_from_the_path() {
+    for (name, model, top) in [
+        ("spindle", spindle("ball_inertia = \"outer_race_control\""), 20000.0),
+        ("rig", rig("outer_race_control", "10 um"), 12000.0),
+        ("clearance", rig("outer_race_control", "40 um"), 30000.0),
+        ("small bends", rig("outer_race_control", "33 um"), 9000.0),
+    ] {
+        let machine = Machine::new(model).unwrap();
+        let (model, assembly, averaged) = (&machine.model, &machine.assembly, CageTreatment::Averaged);
+        let standstill = equilibrium(model, assembly, 0.0, averaged, None).unwrap().q;
+        let range = [0.0, top * RPM];
+        let path = EquilibriumPath::new(model, assembly, range, averaged, &standstill, 1500).unwrap();
+        let (mut worst, mut count) = (0.0_f64, 0);
+        let speeds = grid(0.013 * top * RPM, 0.997 * top * RPM, 41);
+        for &speed in &speeds {
+            let Some(found) = path.tangents(speed) else { continue };
+            count += 1;
+            let exact =
+                equilibrium_tangents(model, assembly, speed, averaged, Some(&path.at(speed))).unwrap();
+            for (a, b) in found.iter().zip(&exact) {
+                for (a, b) in [(&a.stiffness, &b.stiffness), (&a.damping, &b.damping)] {
+                    for (i, j) in (0..36).map(|k| (k / 6, k % 6)) {
+                        let size = (b[i][i] * b[j][j]).abs().sqrt().max(b[i][j].abs()).max(f64::MIN_POSITIVE);
+                        worst = worst.max((a[i][j] - b[i][j]).abs() / size);
+                    }
+                }
+            }
+        }
+        println!("{name}: {count} of {} speeds, {worst:.1e}", speeds.len());
+        assert!(worst < 5e-9, "{name}: {worst:e}");
+        assert!(count > 10, "{name}: {count} speeds");
     }
 }
 

@@ -3,7 +3,7 @@
 //! | module | result |
 //! |---|---|
 //! | [`equilibrium`] | static equilibrium on nonlinear bearings, ball loads, tangent stiffness and damping |
-//! | [`equilibrium_path`] | equilibria over speed as a polynomial, to start from at many speeds |
+//! | [`equilibrium_path`] | tangents of the bearings at many speeds from the equilibria at some |
 //! | [`preload`] | axial force of preloaded bearings in the machine; preload stated by that force |
 //! | [`bearing_stiffness`] | load-displacement relation and stiffness matrix of a single bearing |
 //! | [`modal`] | natural frequencies, damping, mode shapes, kinds and labels at one speed |

@@ -161,7 +161,10 @@ impl Machine {
     ) -> Result<Vec<SiteTangent>, PhysicsError> {
         match path {
             Some(_) if self.stop.is_requested() => Err(PhysicsError::Stopped),
-            Some(path) if speed != 0.0 => self.equilibrium_tangents(speed, &path.at(speed)),
+            Some(path) if speed != 0.0 => match path.tangents(speed) {
+                Some(tangents) => Ok(tangents),
+                None => self.equilibrium_tangents(speed, &path.at(speed)),
+            },
             _ => self.tangents(speed, true),
         }
     }
@@ -175,7 +178,7 @@ impl Machine {
         }
         let (averaged, start) = (CageTreatment::Averaged, &self.standstill_equilibrium.q);
         // Without an equilibrium somewhere the speeds of the study are solved one by one, and the error names one of them.
-        EquilibriumPath::new(&self.model, &self.assembly, range, averaged, start).ok()
+        EquilibriumPath::new(&self.model, &self.assembly, range, averaged, start, count).ok()
     }
 
     fn equilibrium_tangents(&self, speed: f64, start: &[f64]) -> Result<Vec<SiteTangent>, PhysicsError> {
