@@ -13,7 +13,7 @@ use rotordyn::warning::Warning;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
-/// Result of a command: JSON document and failed studies.
+/// Result of a command: JSON document, `null` if none is asked for, and failed studies.
 pub(crate) struct Outcome {
     pub(super) document: Value,
     pub(super) failures: Vec<(&'static str, Failure)>,
@@ -55,6 +55,9 @@ pub(super) fn finish(
         terminal.print("  (figures are written as SVG and PNG)");
     }
     job.results.warnings[known..].iter().for_each(|warning| terminal.warn(warning));
+    if !terminal.json {
+        return Ok(Outcome { document: Value::Null, failures: job.failures });
+    }
     let mut document = rotordyn::io::json::to_json(&job.results, &job.machine);
     if let Some(object) = document.as_object_mut() {
         object.insert("command".into(), command.into());

@@ -21,6 +21,8 @@ const WIDTH: usize = 118;
 #[derive(Debug)]
 pub struct Terminal {
     tables: bool,
+    /// Whether the command ends with a JSON document.
+    pub json: bool,
     progress: bool,
     notes_shown: bool,
     warnings_shown: bool,
@@ -42,6 +44,7 @@ impl Terminal {
         let colour_allowed = !dumb && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
         Self {
             tables: !output.quiet && !output.json,
+            json: output.json,
             progress: !output.quiet && !dumb && stderr().is_terminal(),
             notes_shown: !output.quiet,
             warnings_shown: true,
@@ -65,10 +68,22 @@ impl Terminal {
     }
 
     fn alike(&self) -> Self {
-        let Self { tables, progress, notes_shown, warnings_shown, bold, colour, .. } = *self;
+        let Self { tables, json, progress, notes_shown, warnings_shown, bold, colour, .. } = *self;
         let (warnings, notes, lost) = (Mutex::default(), Mutex::default(), Mutex::default());
         let stop = self.stop.clone();
-        Self { tables, progress, notes_shown, warnings_shown, bold, colour, stop, warnings, notes, lost }
+        Self {
+            tables,
+            json,
+            progress,
+            notes_shown,
+            warnings_shown,
+            bold,
+            colour,
+            stop,
+            warnings,
+            notes,
+            lost,
+        }
     }
 
     /// What a computation found, unless the user asked for its end.

@@ -56,7 +56,7 @@ impl BandLuLanes {
     /// Takes one system, M, D, S in band storage of the layout, at the angular frequencies ω \[rad/s\].
     pub fn set_frequencies(&mut self, [mass, damping, stiffness]: [&[f64]; 3], omega: &[f64; LANES]) {
         let terms = Terms { stiffness: [stiffness, &[]], mass, damping: [damping, &[]] };
-        self.arch.dispatch(Sums { of: terms, omega, values: &mut self.values });
+        self.arch.dispatch(Sums { layout: &self.layout, of: terms, omega, values: &mut self.values });
     }
 
     /// Takes a machine, M, G, C, S, K_c in band storage of the layout, at the speeds Ω \[rad/s\] of synchronous motion:
@@ -67,10 +67,10 @@ impl BandLuLanes {
         speeds: &[f64; LANES],
     ) {
         let terms = Terms { stiffness: [stiffness, circulatory], mass, damping: [damping, gyroscopic] };
-        self.arch.dispatch(Sums { of: terms, omega: speeds, values: &mut self.values });
+        self.arch.dispatch(Sums { layout: &self.layout, of: terms, omega: speeds, values: &mut self.values });
     }
 
-    /// The matrices in band storage of the layout, until they are factorised.
+    /// The matrices in band storage of the layout, until they are factorised. Only entries within the half bandwidth count.
     pub fn values_mut(&mut self) -> &mut [ComplexLanes] {
         &mut self.values
     }
@@ -100,6 +100,7 @@ struct Terms<'a> {
 }
 
 struct Sums<'a> {
+    layout: &'a BandLayout,
     of: Terms<'a>,
     omega: &'a [f64; LANES],
     values: &'a mut [ComplexLanes],
@@ -110,23 +111,33 @@ impl NullaryFnOnce for Sums<'_> {
 
     #[inline(always)]
     fn call(self) {
-        let Self { of: Terms { stiffness, mass, damping }, omega, values } = self;
+        let Self { layout, of: Terms { stiffness, mass, damping }, omega, values } = self;
         let square = omega.map(
             #[inline(always)]
             |w| w * w,
         );
-        let constant = stiffness[0].iter().zip(mass).zip(damping[0]);
-        for (value, ((s, m), d)) in values.iter_mut().zip(constant) {
-            for k in 0..LANES {
-                value.re[k] = s - square[k] * m;
-                value.im[k] = omega[k] * d;
-            }
-        }
-        let slopes = stiffness[1].iter().zip(damping[1]);
-        for (value, (s, d)) in values.iter_mut().zip(slopes) {
-            for k in 0..LANES {
-                value.re[k] += omega[k] * s;
-                value.im[k] += square[k] * d;
+        let with_slopes = !stiffness[1].is_empty();
+        for block in &layout.blocks {
+            let (w, band) = (block.width(), 2 * block.half_bandwidth + 1);
+            for row in (0..block.order.len()).map(|p| block.start + p * w..block.start + p * w + band) {
+                let constant = stiffness[0][row.clone()].iter().zip(&mass[row.clone()]);
+                let constant = constant.zip(&damping[0][row.clone()]);
+                let values = &mut values[row.clone()];
+                for (value, ((s, m), d)) in values.iter_mut().zip(constant) {
+                    for k in 0..LANES {
+                        value.re[k] = s - square[k] * m;
+                        value.im[k] = omega[k] * d;
+                    }
+                }
+                if with_slopes {
+                    let slopes = stiffness[1][row.clone()].iter().zip(&damping[1][row]);
+                    for (value, (s, d)) in values.iter_mut().zip(slopes) {
+                        for k in 0..LANES {
+                            value.re[k] += omega[k] * s;
+                            value.im[k] += square[k] * d;
+                        }
+                    }
+                }
             }
         }
     }
@@ -216,7 +227,15 @@ fn factor_block(
         let last = (j + half).min(n - 1);
         let at = |r: usize| r * w + half + j - r;
         let Some(pivot) = common_pivot(a, &scales, j..=last, at) else { return false };
+        let before = end;
         end = end.max((pivot + half).min(n - 1));
+        // Where exchanges let the rows reach further there is nothing yet.
+        for r in j..=last {
+            let known = before.max(r + half);
+            if known < end {
+                a[r * w + half + known + 1 - r..=r * w + half + end - r].fill(ComplexLanes::default());
+            }
+        }
         let reach = end - j;
         (pivots[j], reaches[j]) = (pivot, reach);
         if pivot != j {
