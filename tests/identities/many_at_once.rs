@@ -4,9 +4,9 @@ use crate::rig::variant;
 use crate::speed_dependent_bearings::spindle;
 use rotordyn::analysis::equilibrium::{CageTreatment, equilibrium, equilibrium_tangents};
 use rotordyn::analysis::equilibrium_path::EquilibriumPath;
-use rotordyn::linalg::Complex64;
-use rotordyn::model::Model;
+use rotordyn::linalg::{Complex64, StopRequest};
 use rotordyn::model::study::{FrfStudy, UnbalanceStudy};
+use rotordyn::model::{self, Model, Options};
 use rotordyn::study::Machine;
 use std::f64::consts::TAU;
 
@@ -100,8 +100,16 @@ fn equilibria_over_speed_start_from_the_path() {
             equilibrium(model, assembly, speed, averaged, start).unwrap().iterations
         };
         let standstill = equilibrium(model, assembly, 0.0, averaged, None).unwrap().q;
-        let path =
-            EquilibriumPath::new(model, assembly, [0.0, top * RPM], averaged, &standstill, 200).unwrap();
+        let path = EquilibriumPath::new(
+            model,
+            assembly,
+            [0.0, top * RPM],
+            averaged,
+            &standstill,
+            200,
+            &StopRequest::default(),
+        )
+        .unwrap();
         assert_eq!(path.at(0.0), standstill);
         let speeds = grid(0.0, top * RPM, 50);
         let on = |start: &dyn Fn(f64) -> Vec<f64>| -> usize {
@@ -116,17 +124,26 @@ fn equilibria_over_speed_start_from_the_path() {
 /// Tangents from the path are those of the equilibrium, whether balls stay loaded or enter and leave the load zone.
 #[test]
 fn tangents_over_speed_come_from_the_path() {
-    for (name, model, top) in [
-        ("spindle", spindle("ball_inertia = \"outer_race_control\""), 20000.0),
-        ("rig", rig("outer_race_control", "10 um"), 12000.0),
-        ("clearance", rig("outer_race_control", "40 um"), 30000.0),
-        ("small bends", rig("outer_race_control", "33 um"), 9000.0),
+    for (name, model, top, least) in [
+        ("spindle", spindle("ball_inertia = \"outer_race_control\""), 20000.0, 41),
+        ("rig", rig("outer_race_control", "10 um"), 12000.0, 5),
+        ("clearance", rig("outer_race_control", "40 um"), 30000.0, 0),
+        ("small bends", rig("outer_race_control", "33 um"), 9000.0, 5),
     ] {
         let machine = Machine::new(model).unwrap();
         let (model, assembly, averaged) = (&machine.model, &machine.assembly, CageTreatment::Averaged);
         let standstill = equilibrium(model, assembly, 0.0, averaged, None).unwrap().q;
         let range = [0.0, top * RPM];
-        let path = EquilibriumPath::new(model, assembly, range, averaged, &standstill, 1500).unwrap();
+        let path = EquilibriumPath::new(
+            model,
+            assembly,
+            range,
+            averaged,
+            &standstill,
+            1500,
+            &StopRequest::default(),
+        )
+        .unwrap();
         let (mut worst, mut count) = (0.0_f64, 0);
         let speeds = grid(0.013 * top * RPM, 0.997 * top * RPM, 41);
         for &speed in &speeds {
@@ -145,7 +162,7 @@ fn tangents_over_speed_come_from_the_path() {
         }
         println!("{name}: {count} of {} speeds, {worst:.1e}", speeds.len());
         assert!(worst < 5e-9, "{name}: {worst:e}");
-        assert!(count > 10, "{name}: {count} speeds");
+        assert!(count >= least, "{name}: {count} speeds");
     }
 }
 
@@ -161,4 +178,51 @@ fn unbalance_at_many_speeds() {
         println!("{name}: {worst:.1e}");
         assert!(worst < 1e-8, "{name}: {worst:e}");
     }
+}
+
+fn load(text: &str) -> Model {
+    model::load("many.toml", text, &Options::default()).unwrap_or_else(|errors| panic!("{errors:?}")).model
+}
+
+/// A rigid rotor with its centre midway between bearings that differ in stiffness: forces couple displacement and rotation
+/// where arms of equal stiffness would cancel. At one of them with cross-coupled stiffness.
+#[test]
+fn unbalance_of_a_rigid_rotor_on_unequal_bearings() {
+    for (place, cross) in [("C", "0"), ("A", "0"), ("C", "3e5"), ("A", "3e5")] {
+        let model = load(&format!(
+            "[model]\nname = \"rigid\"\n[rotor]\nlength = \"0.5 m\"\nouter_diameter = \"40 mm\"\nmass = \"4.8 kg\"\n\
+             centre = \"0.25 m\"\n[station]\nA = \"0 m\"\nB = \"0.5 m\"\nC = \"0.25 m\"\n\
+             [bearing.A]\nstation = \"A\"\nmodel = \"linear\"\nk_xx = \"2e7 N/m\"\nk_yy = \"2e7 N/m\"\nk_zz = \"1e7 N/m\"\n\
+             c_xx = \"900 N s/m\"\nc_yy = \"900 N s/m\"\n\
+             [bearing.B]\nstation = \"B\"\nmodel = \"linear\"\nk_xx = \"5e6 N/m\"\nk_yy = \"5e6 N/m\"\nk_xy = \"{cross} N/m\"\n\
+             k_yx = \"-{cross} N/m\"\nc_xx = \"900 N s/m\"\nc_yy = \"900 N s/m\"\n\
+             [unbalance.u]\nstation = \"{place}\"\nmagnitude = \"100 g mm\"\n\
+             [probe.x]\nat = \"rotor\"\ndirection = \"x\"\n[probe.tilt]\nat = \"station.B\"\ndirection = \"x\"\n\
+             [study.unbalance]\nspeeds = \"500 rad/s\"\n"
+        ));
+        let worst = unbalance_difference(model, grid(0.0, 4000.0, 85));
+        println!("unbalance at {place}, k_xy {cross}: {worst:.1e}");
+        assert!(worst < 1e-11, "unbalance at {place}, k_xy {cross}: {worst:e}");
+    }
+}
+
+/// A table may change between any two speeds, here at 3000 rpm, on the other side of ball bearings that depend on speed.
+#[test]
+fn unbalance_with_a_narrow_table() {
+    let text = "[model]\nname = \"spindle\"\n[material.steel]\nyoung = \"207 GPa\"\npoisson = 0.3\ndensity = \"7850 kg/m^3\"\n\
+         [shaft]\nelement_length = \"30 mm\"\nsection = [{ length = \"300 mm\", outer_diameter = \"30 mm\" }]\n\
+         [station]\nA = \"60 mm\"\nB = \"240 mm\"\nC = \"300 mm\"\n\
+         [bearing.A]\nstation = \"A\"\nmodel = \"ball\"\ndesignation = \"7206B\"\nthrust = \"-z\"\nradial_clearance = \"0 um\"\n\
+         preload = { interference = \"4 um\" }\nball_inertia = \"outer_race_control\"\n\
+         [bearing.B]\nstation = \"B\"\nmodel = \"ball\"\ndesignation = \"7206B\"\nthrust = \"+z\"\nradial_clearance = \"0 um\"\n\
+         preload = { interference = \"4 um\" }\nball_inertia = \"outer_race_control\"\n\
+         [bearing.C]\nstation = \"C\"\nmodel = \"linear\"\nspeed = \"0, 2990, 3000, 3010, 6300 rpm\"\n\
+         k_xx = \"1e7, 1e7, 1e8, 1e7, 1e7 N/m\"\nk_yy = \"1e7, 1e7, 1e8, 1e7, 1e7 N/m\"\n\
+         [unbalance.u]\nstation = \"C\"\nmagnitude = \"100 g mm\"\n[probe.x]\nat = \"station.B\"\ndirection = \"x\"\n\
+         [study.unbalance]\nspeeds = \"500 rad/s\"\n";
+    // Every seventh is compared with the speed alone: 3000 rpm is one of them.
+    let speeds: Vec<f64> = (0..200).map(|k| f64::from(3000 + 15 * (k - 98)) * RPM).collect();
+    let worst = unbalance_difference(load(text), speeds);
+    println!("{worst:.1e}");
+    assert!(worst < 1e-8, "{worst:e}");
 }

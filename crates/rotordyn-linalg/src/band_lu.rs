@@ -111,11 +111,12 @@ impl BandLayout {
         self.blocks.iter().map(|b| b.order.as_slice())
     }
 
-    /// Place of an entry in the band storage; `None` outside a restricted layout.
+    /// Place of an entry in the band storage; `None` outside a restricted layout, and where the layout's patterns have none.
     pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
-        let ((b, p), (_, q)) = (self.slots[i]?, self.slots[j]?);
+        let ((b, p), (other, q)) = (self.slots[i]?, self.slots[j]?);
         let block = &self.blocks[b];
-        Some(block.start + p * block.width() + block.half_bandwidth + q - p)
+        let within = b == other && p.abs_diff(q) <= block.half_bandwidth;
+        within.then(|| block.start + p * block.width() + block.half_bandwidth + q - p)
     }
 
     /// Band storage of a matrix; add such arrays entry by entry to combine matrices of one layout.
@@ -166,7 +167,7 @@ pub struct BandLu<'a, T> {
     layout: &'a BandLayout,
     values: Vec<T>,
     pivots: Vec<usize>,
-    /// Entries of every row of the upper factor right of the diagonal.
+    /// Number of entries of every row of the upper factor right of the diagonal.
     reaches: Vec<usize>,
     /// Those of every column, one after another: a solution runs along them.
     multipliers: Vec<T>,

@@ -4,6 +4,7 @@ use crate::{Complex64, SparseRow};
 
 /// Matrices side by side.
 pub const LANES: usize = 8;
+
 /// A complex number of each matrix.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ComplexLanes {

@@ -19,7 +19,7 @@ pub struct Workspace<'a, T> {
 impl<T> Workspaces<T> {
     /// One that nobody uses, or a new one.
     pub fn take(&self, make: impl FnOnce() -> T) -> Workspace<'_, T> {
-        // Vectors of whole workspaces: one left by a panic is as good as any.
+        // The list holds only complete workspaces: one left by a panic is as good as any.
         let free = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop();
         Workspace { from: self, memory: Some(free.unwrap_or_else(make)) }
     }

@@ -2,17 +2,25 @@
 
 use super::equilibrium::{CageTreatment, equilibrium};
 use crate::assembly::{Assembly, PhysicsError};
-use crate::model::Model;
+use crate::model::{BearingSite, Model};
 use rayon::prelude::*;
 use rotordyn_bearing::SiteTangent;
+use rotordyn_linalg::StopRequest;
 use std::f64::consts::PI;
 
 /// Degree of the polynomials in the speed. Every other of their points are those of half the degree, every fourth those of a
 /// quarter.
 const DEGREE: usize = 32;
-/// Expected error of the polynomials, relative to the entries of the tangents, up to which these are taken from them: of the size
-/// that Newton's method leaves.
+/// Expected error of the polynomials, relative to the entries of the tangents, up to which these are taken from them.
 const TOLERANCE: f64 = 1e-10;
+/// Error of the polynomials of half the degree beyond which nothing is expected.
+const LARGEST_ERROR: f64 = 1e-6;
+/// Error of the polynomials at the equilibria between their points.
+const ALLOWED: f64 = 3e-9;
+/// These equilibria, as fractions of a part.
+const BETWEEN: [f64; 4] = [0.0713, 0.3219, 0.6171, 0.8987];
+/// Smallest part that is halved, as a fraction of the range.
+const LEAST_WIDTH: f64 = 1e-3;
 /// Part of the evaluations of a study that may go into the polynomials.
 const LARGEST_PART: f64 = 0.25;
 
@@ -25,7 +33,9 @@ const LARGEST_PART: f64 = 0.25;
 /// through; that of the whole one is expected to be e₁₆ (e₁₆/e₈)², as the errors of smooth functions decrease by equal factors
 /// (Trefethen 2013, theorem 8.2). Where balls enter and leave the load zone the tangents may have bends: a part with larger
 /// errors is halved, as far as that pays. What is left there is a start from which Newton's method takes one step, where it takes
-/// some three from standstill.
+/// some three from standstill. The tangents of each part taken are compared with those of equilibria between its points.
+///
+/// With tabulated bearings nothing is taken: a table may change between any two points.
 #[derive(Clone, Debug)]
 pub struct EquilibriumPath {
     /// By speed.
@@ -42,14 +52,14 @@ struct Part {
 }
 
 impl EquilibriumPath {
-    /// Speeds from which a path pays: several times those it is made of.
+    /// Speeds from which a path pays: several times those of its first part.
     pub const LEAST_SPEEDS: usize = 3 * (DEGREE + 1);
 
     /// The path over a range of speeds \[rad/s\] of which a study evaluates some `count`; `start`: displacements \[m, rad\] near
     /// those at any speed.
     ///
     /// # Errors
-    /// No equilibrium at one of its points.
+    /// No equilibrium at one of its points, or a request to stop.
     pub fn new(
         model: &Model,
         assembly: &Assembly,
@@ -57,9 +67,16 @@ impl EquilibriumPath {
         cage: CageTreatment,
         start: &[f64],
         count: usize,
+        stop: &StopRequest,
     ) -> Result<Self, PhysicsError> {
+        let tabulated =
+            |site: &BearingSite| site.bearing.element().is_linear() && site.bearing.depends_on_speed();
+        let is_smooth = !model.bearings.iter().any(tabulated);
         let part = |&[low, high]: &[f64; 2]| {
-            Part::new([low, high], |speed| {
+            Part::new([low, high], is_smooth, |speed| {
+                if stop.is_requested() {
+                    return Err(PhysicsError::Stopped);
+                }
                 let found = equilibrium(model, assembly, speed, cage, Some(start))?;
                 let tangents = found.tangents();
                 Ok((found.q, tangents))
@@ -73,7 +90,9 @@ impl EquilibriumPath {
             let found: Vec<Part> = ranges.par_iter().map(part).collect::<Result<_, PhysicsError>>()?;
             let (exact, others): (Vec<_>, Vec<_>) = found.into_iter().partition(|part| part.is_exact);
             parts.extend(exact);
-            if (2 * others.len() * (DEGREE + 1)) as f64 > left {
+            let widest = others.iter().map(Part::width).fold(0.0, f64::max);
+            let is_small = widest < LEAST_WIDTH * (high - low);
+            if !is_smooth || is_small || (2 * others.len() * (DEGREE + 1)) as f64 > left {
                 parts.extend(others);
                 break;
             }
@@ -86,6 +105,8 @@ impl EquilibriumPath {
     /// Displacements of the free DOFs at a speed \[rad/s\].
     pub fn at(&self, speed: f64) -> Vec<f64> {
         let part = self.part(speed);
+        // Beyond its ends a polynomial is no start.
+        let speed = speed.clamp(part.speeds[0], part.speeds[DEGREE]);
         let mut out = vec![0.0; part.displacements[0].len()];
         for (weight, q) in part.weights(speed).into_iter().zip(&part.displacements) {
             out.iter_mut().zip(q).for_each(|(out, q)| *out += weight * q);
@@ -96,7 +117,8 @@ impl EquilibriumPath {
     /// Tangents of all bearings at a speed \[rad/s\]; `None` where they are to be found by Newton's method.
     pub fn tangents(&self, speed: f64) -> Option<Vec<SiteTangent>> {
         let part = self.part(speed);
-        part.is_exact.then(|| sum(&part.weights(speed), &part.tangents))
+        (part.is_exact && (part.speeds[0]..=part.speeds[DEGREE]).contains(&speed))
+            .then(|| sum(&part.weights(speed), &part.tangents))
     }
 
     fn part(&self, speed: f64) -> &Part {
@@ -108,6 +130,7 @@ impl EquilibriumPath {
 impl Part {
     fn new(
         [low, high]: [f64; 2],
+        is_smooth: bool,
         equilibrium: impl Fn(f64) -> Result<(Vec<f64>, Vec<SiteTangent>), PhysicsError> + Sync,
     ) -> Result<Self, PhysicsError> {
         let speeds: Vec<f64> = (0..=DEGREE)
@@ -115,9 +138,69 @@ impl Part {
             .collect();
         let found: Vec<_> = speeds.par_iter().map(|&speed| equilibrium(speed)).collect::<Result<_, _>>()?;
         let (displacements, tangents): (_, Vec<_>) = found.into_iter().unzip();
-        let [coarse, fine] = [4, 2].map(|every| error(&speeds, &tangents, every));
-        let is_exact = fine * (fine / coarse).min(1.0).powi(2) <= TOLERANCE || fine == 0.0;
-        Ok(Self { speeds, displacements, tangents, is_exact })
+        let mut part = Self { speeds, displacements, tangents, is_exact: false };
+        part.is_exact = is_smooth && part.expected_error() <= TOLERANCE;
+        if part.is_exact {
+            let at = |between: &f64| {
+                let speed = low + between * (high - low);
+                let found = sum(&part.weights(speed), &part.tangents);
+                let (_, exact) = equilibrium(speed)?;
+                let errors = entries(&found).zip(entries(&exact)).zip(part.sizes());
+                Ok(errors.map(|((a, b), size)| (a - b).abs() / size).fold(0.0, larger))
+            };
+            let errors: Vec<f64> = BETWEEN.par_iter().map(at).collect::<Result<_, PhysicsError>>()?;
+            part.is_exact = errors.into_iter().fold(0.0, larger) <= ALLOWED;
+        }
+        Ok(part)
+    }
+
+    /// Largest error expected of an entry, relative to its size; infinite where nothing can be expected.
+    fn expected_error(&self) -> f64 {
+        let [coarse, fine] = [4, 2].map(|every| self.errors(every));
+        let expected = |(coarse, fine): (f64, f64)| {
+            // Written so that not-a-number is no small error.
+            let is_known = fine <= LARGEST_ERROR && coarse.is_finite();
+            if is_known {
+                fine * if fine < coarse { (fine / coarse).powi(2) } else { 1.0 }
+            } else {
+                f64::INFINITY
+            }
+        };
+        coarse.into_iter().zip(fine).map(expected).fold(0.0, larger)
+    }
+
+    /// Error of every entry of the polynomials through every so many points at those between them, relative to its size.
+    fn errors(&self, every: usize) -> Vec<f64> {
+        let points: Vec<f64> = self.speeds.iter().copied().step_by(every).collect();
+        let through: Vec<Vec<SiteTangent>> = self.tangents.iter().step_by(every).cloned().collect();
+        let sizes = self.sizes();
+        let mut errors = vec![0.0; sizes.len()];
+        for k in (every / 2..self.speeds.len()).step_by(every) {
+            let near = sum(&weights(&points, self.speeds[k]), &through);
+            let pairs = entries(&near).zip(entries(&self.tangents[k])).zip(&sizes);
+            for (error, ((a, b), size)) in errors.iter_mut().zip(pairs) {
+                *error = larger(*error, (a - b).abs() / size);
+            }
+        }
+        errors
+    }
+
+    /// Size of every entry over all points, √(K_ii K_jj) of the largest ones or its own.
+    fn sizes(&self) -> Vec<f64> {
+        let mut largest = vec![0.0_f64; 72 * self.tangents[0].len()];
+        for tangents in &self.tangents {
+            largest.iter_mut().zip(entries(tangents)).for_each(|(size, entry)| *size = size.max(entry.abs()));
+        }
+        let of = |k: usize| {
+            let (matrix, i, j) = (k / 36 * 36, k % 36 / 6, k % 6);
+            let mean = (largest[matrix + 7 * i] * largest[matrix + 7 * j]).sqrt();
+            mean.max(largest[k]).max(f64::MIN_POSITIVE)
+        };
+        (0..largest.len()).map(of).collect()
+    }
+
+    fn width(&self) -> f64 {
+        self.speeds[DEGREE] - self.speeds[0]
     }
 
     fn halves(&self) -> [[f64; 2]; 2] {
@@ -160,26 +243,12 @@ fn sum(weights: &[f64], of: &[Vec<SiteTangent>]) -> Vec<SiteTangent> {
     out
 }
 
-/// Error of the polynomials through every so many points at those between them, relative to √(K_ii K_jj) of each matrix.
-fn error(speeds: &[f64], tangents: &[Vec<SiteTangent>], every: usize) -> f64 {
-    let points: Vec<f64> = speeds.iter().copied().step_by(every).collect();
-    let through: Vec<Vec<SiteTangent>> = tangents.iter().step_by(every).cloned().collect();
-    let at = |k: usize| {
-        let near = sum(&weights(&points, speeds[k]), &through);
-        let pairs = near.iter().zip(&tangents[k]);
-        let errors = pairs
-            .flat_map(|(a, b)| [difference(&a.stiffness, &b.stiffness), difference(&a.damping, &b.damping)]);
-        errors.fold(0.0, f64::max)
-    };
-    (every / 2..speeds.len()).step_by(every).map(at).fold(0.0, f64::max)
+/// Entries of K and C of all bearings.
+fn entries(of: &[SiteTangent]) -> impl Iterator<Item = f64> {
+    of.iter().flat_map(|t| t.stiffness.as_flattened().iter().chain(t.damping.as_flattened()).copied())
 }
 
-/// Largest difference of two matrices, relative to √(b_ii b_jj).
-fn difference(a: &[[f64; 6]; 6], b: &[[f64; 6]; 6]) -> f64 {
-    let relative = |k: usize| {
-        let (i, j) = (k / 6, k % 6);
-        let size = (b[i][i] * b[j][j]).abs().sqrt().max(b[i][j].abs());
-        if a[i][j] == b[i][j] { 0.0 } else { (a[i][j] - b[i][j]).abs() / size }
-    };
-    (0..36).map(relative).fold(0.0, f64::max)
+/// The larger of two errors; not-a-number is larger than any.
+fn larger(a: f64, b: f64) -> f64 {
+    if b <= a { a } else { b }
 }

@@ -38,9 +38,14 @@ impl SynchronousLanes {
         let n = assembly.dofs.len();
         let mut bearings = Triplets::new(n, n);
         for (site, tangent) in assembly.sites.iter().zip(tangents) {
+            // Absolute values: entries that cancel with these stiffnesses need not cancel with others.
+            let size = site.rows.clone().map(|mut row| {
+                row.0.iter_mut().for_each(|(_, v)| *v = v.abs());
+                row
+            });
             let present = |i: usize, j: usize| f64::from(u8::from(!is_zero(tangent, [i, j])));
             let present = std::array::from_fn(|i| std::array::from_fn(|j| present(i, j)));
-            bearings.add_between_rows(&site.rows, &present);
+            bearings.add_between_rows(&size, &present);
         }
         let [m, g, c] = [&assembly.mass, &assembly.gyroscopic, &assembly.damping];
         let [s, belts, k_c] = [&assembly.stiffness, &assembly.belt_stiffness, &assembly.circulatory];

@@ -24,7 +24,8 @@ const MAX_TIMED_SECONDS: f64 = 0.2;
 /// Work below which the time is not measured: it is seconds at most.
 const SMALL_STEPS: f64 = 1e6;
 const SMALL_SOLUTIONS: f64 = 2000.0;
-/// The same for solutions × degrees of freedom: minutes at most, with the dense matrices of modal damping.
+/// Solutions × degrees of freedom below which the time is not measured either: minutes at most, with the dense matrices of modal
+/// damping, where a warning begins at an hour.
 const SMALL_UNKNOWNS: f64 = 2e6;
 /// Points of a measurement of the time per linear solution.
 const TIMED_POINTS: usize = 16;

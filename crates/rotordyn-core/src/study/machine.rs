@@ -150,7 +150,7 @@ impl Machine {
     }
 
     /// As [`Self::tangents`] of speed-dependent bearings, for studies of many speeds: `path` from
-    /// [`Self::equilibrium_path`]. They are not cached: the next study may start from elsewhere, and find other last digits.
+    /// [`Self::equilibrium_path`]. They are not cached: the next study may start from elsewhere, and differ by some 1e-9.
     ///
     /// # Errors
     /// As [`Self::tangents`].
@@ -178,7 +178,7 @@ impl Machine {
         }
         let (averaged, start) = (CageTreatment::Averaged, &self.standstill_equilibrium.q);
         // Without an equilibrium somewhere the speeds of the study are solved one by one, and the error names one of them.
-        EquilibriumPath::new(&self.model, &self.assembly, range, averaged, start, count).ok()
+        EquilibriumPath::new(&self.model, &self.assembly, range, averaged, start, count, &self.stop).ok()
     }
 
     fn equilibrium_tangents(&self, speed: f64, start: &[f64]) -> Result<Vec<SiteTangent>, PhysicsError> {

@@ -372,22 +372,26 @@ impl<'a, T: Tangents> Search<'a, T> {
             return None;
         }
         let roots: Vec<&(f64, Eigenpair)> = roots.iter().map(Option::as_ref).collect::<Option<_>>()?;
-        let step = b.speed - a.speed;
-        // The lowest mode falls below the line first, the highest rises above it first.
+        if roots.len() != indices.len() {
+            return None;
+        }
+        // The secant method may end with a change of 1e-8.
+        let least = (APART * (b.speed - a.speed)).max(10.0 * ON_LINE * b.speed);
+        // Modes that fall below the line with speed: the lowest first. Others rise above it, the highest first.
         let falls = self.below(b, order) > self.below(a, order);
         let apart = |pair: &[&(f64, Eigenpair)]| {
             let change = pair[1].0 - pair[0].0;
-            (if falls { change } else { -change }) > APART * step
+            (if falls { change } else { -change }) > least
         };
-        let inside =
-            |root: &&(f64, Eigenpair)| root.0 > a.speed + APART * step && root.0 < b.speed - APART * step;
+        let inside = |root: &&(f64, Eigenpair)| root.0 > a.speed + least && root.0 < b.speed - least;
         if !roots.iter().all(inside) || !roots.windows(2).all(apart) {
             return None;
         }
         let crossing = |((speed, (value, shape)), label): (&(f64, Eigenpair), &String)| {
             let mut mode = mode_kind::characterise(self.assembly, *value, shape.clone());
             let line = order * speed;
-            let known = label.ends_with(&mode_kind::unnumbered(self.assembly, &mode));
+            let name = mode_kind::unnumbered(self.assembly, &mode);
+            let known = *label == name || label.split_once(' ').is_some_and(|(_, rest)| rest == name);
             (known && (mode.omega() - line).abs() <= ON_LINE * line).then(|| {
                 mode.label.clone_from(label);
                 CriticalSpeed { speed: *speed, order, mode }
