@@ -72,7 +72,7 @@ def test_ctrl_c_ends_long_calls() -> None:
             "identify": lambda: rd.identify(many),
             "update": fit(rig),
             "campbell": lambda: rig.campbell(speeds=speeds),
-            "unbalance": lambda: rig.unbalance(speeds=speeds),
+            "unbalance": lambda: rig.unbalance(speeds={**speeds, "step": "0.1 rpm"}),
         }
         for name, call in calls.items():
 
