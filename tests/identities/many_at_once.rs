@@ -5,7 +5,7 @@ use crate::speed_dependent_bearings::spindle;
 use rotordyn::analysis::equilibrium::{CageTreatment, equilibrium, equilibrium_tangents};
 use rotordyn::analysis::equilibrium_path::EquilibriumPath;
 use rotordyn::linalg::{Complex64, StopRequest};
-use rotordyn::model::study::{FrfStudy, UnbalanceStudy};
+use rotordyn::model::study::{Excitation, FrfStudy, UnbalanceStudy};
 use rotordyn::model::{self, Model, Options};
 use rotordyn::study::Machine;
 use std::f64::consts::TAU;
@@ -51,6 +51,33 @@ fn frf_of_many_frequencies() {
         }
         println!("{set:?}: {worst:.1e}");
         assert!(worst < 1e-8, "{set:?}: {worst:e}");
+    }
+}
+
+/// Each response to each excitation has its own place, here two excitations and more responses.
+#[test]
+fn frf_of_each_pair() {
+    let machine = Machine::new(variant(None, &[])).unwrap();
+    let mut study = machine.model.studies.frf.clone().unwrap();
+    study.refine = false;
+    study.frequencies = vec![7.0, 31.0, 83.0];
+    let at = |index: usize| study.responses[index].clone();
+    let of = |index: usize| Excitation {
+        name: format!("e{index}"),
+        at: at(index).at,
+        direction: at(index).direction,
+    };
+    study.excitations = vec![of(0), of(1)];
+    assert!(study.responses.len() > 2);
+    let all = machine.frf(&study).unwrap().frf.values;
+    for (r, response) in study.responses.iter().enumerate() {
+        for (e, excitation) in study.excitations.iter().enumerate() {
+            let responses = vec![response.clone()];
+            let one = FrfStudy { responses, excitations: vec![excitation.clone()], ..study.clone() };
+            let alone = &machine.frf(&one).unwrap().frf.values[0][0];
+            let worst = difference(all[r][e].iter(), alone.iter());
+            assert!(worst < 1e-9, "{} to {}: {worst:e}", response.name, excitation.name);
+        }
     }
 }
 
