@@ -343,6 +343,12 @@ impl SparseRow {
         self.0.retain(|&(_, v)| v != 0.0);
     }
 
+    /// The row of absolute values.
+    pub fn abs(mut self) -> Self {
+        self.0.iter_mut().for_each(|(_, v)| *v = v.abs());
+        self
+    }
+
     /// r · x.
     pub fn dot(&self, x: &[f64]) -> f64 {
         self.0.iter().map(|&(i, v)| v * x[i]).sum()

@@ -109,14 +109,10 @@ impl Decimator {
                     ))
                 },
             );
-            self.next += 1;
-            self.drop_frames();
-            return true;
-        }
-        for values in values {
-            out.push(if is_zero {
-                0.0
-            } else {
+        } else if is_zero {
+            out.extend(values.iter().map(|_| 0.0));
+        } else {
+            out.extend(values.iter().map(|values| -> f64 {
                 let last = *frames as isize - 1;
                 let at = |index: isize| values[index.clamp(*first as isize, last) as usize - first];
                 let reflected = |index: isize| match index {
@@ -126,7 +122,7 @@ impl Decimator {
                 };
                 let from = centre as isize - *half as isize;
                 weights.iter().zip(from..).map(|(w, index)| w * reflected(index)).sum()
-            });
+            }));
         }
         self.next += 1;
         self.drop_frames();

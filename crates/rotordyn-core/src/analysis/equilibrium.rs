@@ -15,7 +15,7 @@ use crate::document::{Document, Rows, in_hdf5, in_json, named};
 use crate::model::{Model, ShaftExtent};
 use rotordyn_bearing::{BearingElement, Reaction, Rotation, SiteTangent};
 use rotordyn_linalg::refinement::{NEGLIGIBLE, PreciseResidual, refine};
-use rotordyn_linalg::{SparseMatrix, Triplets, dot};
+use rotordyn_linalg::{SparseMatrix, SparseRow, Triplets, dot};
 use serde::{Deserialize, Serialize};
 
 /// Residual over the largest load or bearing force.
@@ -379,11 +379,7 @@ fn bearing_pattern(assembly: &Assembly) -> SparseMatrix {
     let mut triplets = Triplets::new(n, n);
     for site in &assembly.sites {
         // Absolute values: entries that cancel in one evaluation need not cancel in the next.
-        let size = site.rows.clone().map(|mut row| {
-            row.0.iter_mut().for_each(|(_, v)| *v = v.abs());
-            row
-        });
-        triplets.add_between_rows(&size, &[[1.0; 6]; 6]);
+        triplets.add_between_rows(&site.rows.clone().map(SparseRow::abs), &[[1.0; 6]; 6]);
     }
     triplets.build()
 }

@@ -250,5 +250,33 @@ fn entries(of: &[SiteTangent]) -> impl Iterator<Item = f64> {
 
 /// The larger of two errors; not-a-number is larger than any.
 fn larger(a: f64, b: f64) -> f64 {
-    if b <= a { a } else { b }
+    if a.is_nan() || b <= a { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A part of one bearing with its K_xx and K_yy over −1 to 1.
+    fn part(k: impl Fn(f64) -> [f64; 2] + Sync) -> Part {
+        let at = |speed: f64| {
+            let mut tangent = SiteTangent::default();
+            [tangent.stiffness[0][0], tangent.stiffness[1][1]] = k(speed);
+            Ok((Vec::new(), vec![tangent]))
+        };
+        Part::new([-1.0, 1.0], true, at).unwrap()
+    }
+
+    #[test]
+    fn smooth_tangents_are_taken_and_others_are_not() {
+        assert!(part(|x| [1.0 + 0.1 * x.sin(), 3.0]).is_exact);
+        let smooth = |x: f64| 1.0 + 0.8 * (-4.0 * x * x).exp();
+        assert!(part(|x| [smooth(x), 1.0]).is_exact);
+        // A bend beside an entry that converges fast, a jump, and what is not a number at some or all points.
+        assert!(!part(|x| [smooth(x), 1.0 + 1e-4 * (x - 0.13).max(0.0)]).is_exact);
+        assert!(!part(|x| [1.0, if x > 0.4 { 1.01 } else { 1.0 }]).is_exact);
+        assert!(!part(|x| [1.0, if x < -0.9 { f64::NAN } else { 1.0 }]).is_exact);
+        assert!(!part(|_| [1.0, f64::NAN]).is_exact);
+        assert!(larger(f64::NAN, 1.0).is_nan() && larger(1.0, f64::NAN).is_nan() && larger(1.0, 2.0) == 2.0);
+    }
 }

@@ -82,9 +82,9 @@ impl<'a> FrfSolver<'a> {
         let columns: Vec<Vec<Vec<Complex64>>> = frequencies
             .par_chunks(LANES)
             .map_init(
-                || (None, self.memory.take(|| self.harmonic.lanes())),
+                || (None, self.memory.take(|| None)),
                 |(solver, lanes), hz| {
-                    if let Some(columns) = lanes.as_mut().and_then(|lanes| self.several(lanes, hz)) {
+                    if let Some(columns) = self.several(lanes, hz) {
                         return Ok(columns);
                     }
                     let solver = solver.get_or_insert_with(|| self.harmonic.solver());
@@ -111,11 +111,15 @@ impl<'a> FrfSolver<'a> {
     }
 
     /// At two to [`LANES`] frequencies; `None` where they are to be taken one by one.
-    fn several(&self, lanes: &mut HarmonicLanes, hz: &[f64]) -> Option<Vec<Vec<Complex64>>> {
+    fn several(&self, memory: &mut Option<HarmonicLanes>, hz: &[f64]) -> Option<Vec<Vec<Complex64>>> {
         let (&last, _) = hz.split_last().filter(|(_, others)| !others.is_empty())?;
         // At rest a rigid-body mode is singular to the last digit: found with the rounding of one matrix.
         (!hz.contains(&0.0)).then_some(())?;
         let omega = std::array::from_fn(|k| hz.get(k).copied().unwrap_or(last) * TAU);
+        if memory.is_none() {
+            *memory = self.harmonic.lanes();
+        }
+        let lanes = memory.as_mut()?;
         lanes.factor(&self.harmonic, &omega).then_some(())?;
         let size = self.excitations.len() * self.responses.len();
         let mut columns = vec![Vec::with_capacity(size); hz.len()];

@@ -126,7 +126,7 @@ pub(super) fn label(assembly: &Assembly, modes: &mut [Mode]) {
     let mut count: HashMap<String, usize> = HashMap::new();
     let [mut whirling, mut planar, mut mixed] = [0, 0, 0];
     for mode in modes {
-        let name = unnumbered(assembly, mode);
+        let name = label_without_number(assembly, mode);
         let before = *count.entry(name.clone()).and_modify(|n| *n += 1).or_insert(1) - 1;
         let place = match mode.kind {
             ModeKind::Forward | ModeKind::Backward => before + (planar + mixed) / 2,
@@ -148,7 +148,7 @@ pub(super) fn label(assembly: &Assembly, modes: &mut [Mode]) {
 }
 
 /// The label of a mode without its number.
-pub(super) fn unnumbered(assembly: &Assembly, mode: &Mode) -> String {
+pub(super) fn label_without_number(assembly: &Assembly, mode: &Mode) -> String {
     match mode.kind {
         ModeKind::Body => body_name(assembly, &mode.energy),
         kind if assembly.dofs.rigid => kind.name().replace("bending", "rigid-body"),

@@ -4,7 +4,7 @@ use super::harmonic::has_round_off;
 use crate::assembly::Assembly;
 use rotordyn_bearing::SiteTangent;
 use rotordyn_linalg::complex_lanes::{ComplexLanes, LANES};
-use rotordyn_linalg::{BandLayout, BandLuLanes, Triplets};
+use rotordyn_linalg::{BandLayout, BandLuLanes, SparseRow, Triplets};
 use std::sync::Arc;
 
 /// S + K_b(Ω) + Ω K_c − Ω² M + jΩ (C + C_b(Ω) + Ω G) at [`LANES`] speeds Ω, K_b and C_b being those of the bearings.
@@ -32,20 +32,16 @@ impl SynchronousLanes {
     /// Memory for the groups of unknowns coupled to those in `reached` on bearings with these tangents. `None` with modal
     /// damping or round-off, which take more than one solution each.
     pub fn new(assembly: &Assembly, tangents: &[SiteTangent], reached: &[usize]) -> Option<Self> {
-        if assembly.modal.is_some() || !assembly.modal_damping.is_empty() {
+        if assembly.has_modal_damping() {
             return None;
         }
         let n = assembly.dofs.len();
         let mut bearings = Triplets::new(n, n);
         for (site, tangent) in assembly.sites.iter().zip(tangents) {
             // Absolute values: entries that cancel with these stiffnesses need not cancel with others.
-            let size = site.rows.clone().map(|mut row| {
-                row.0.iter_mut().for_each(|(_, v)| *v = v.abs());
-                row
-            });
             let present = |i: usize, j: usize| f64::from(u8::from(!is_zero(tangent, [i, j])));
             let present = std::array::from_fn(|i| std::array::from_fn(|j| present(i, j)));
-            bearings.add_between_rows(&size, &present);
+            bearings.add_between_rows(&site.rows.clone().map(SparseRow::abs), &present);
         }
         let [m, g, c] = [&assembly.mass, &assembly.gyroscopic, &assembly.damping];
         let [s, belts, k_c] = [&assembly.stiffness, &assembly.belt_stiffness, &assembly.circulatory];

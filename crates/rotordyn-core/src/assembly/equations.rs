@@ -170,6 +170,11 @@ impl Assembly {
         Ok(assembly)
     }
 
+    /// Whether there is modal damping, which is a dense matrix.
+    pub fn has_modal_damping(&self) -> bool {
+        self.modal.is_some() || !self.modal_damping.is_empty()
+    }
+
     /// Displacement of an anchor's point as rows over the free DOFs.
     pub fn anchor_rows(&self, anchor: &Anchor) -> [SparseRow; 6] {
         self.dofs.anchor_rows(anchor)

@@ -121,7 +121,12 @@ impl<'a, T: Tangents> Search<'a, T> {
             return Ok(Spectrum::new(speed, []));
         }
         let system = self.system(speed)?;
-        let modes = modal::modes_of(self.assembly, &system, self.pairs(&system, guess)?);
+        let pairs = self.pairs(&system, guess)?;
+        if self.assembly.has_modal_damping() {
+            // Labels are not used, see `separate_crossings`.
+            return Ok(Spectrum::new(speed, pairs.into_iter().map(|(value, _)| (value, String::new()))));
+        }
+        let modes = modal::modes_of(self.assembly, &system, pairs);
         Ok(Spectrum::new(speed, modes.into_iter().map(|mode| (mode.eigenvalue, mode.label))))
     }
 
@@ -322,7 +327,7 @@ impl<'a, T: Tangents> Search<'a, T> {
             let (machine, ends) = ((self.assembly, self.tangents), (a.speed, b.speed));
             roots.push(refine::crossing(machine, order, (end.speed, start), trial, ends)?);
         }
-        if let Some(found) = self.each_once([a, b], order, indices.clone(), &roots) {
+        if let Some(found) = self.separate_crossings([a, b], order, indices.clone(), &roots) {
             return Ok(found);
         }
         let mut found = ByIndex::new();
@@ -356,7 +361,7 @@ impl<'a, T: Tangents> Search<'a, T> {
 
     /// The crossings of a step whose modes reach the line one after another, in the order of their indices, and are labelled
     /// alike at both ends: no other mode has to be known. `None` where this is not so.
-    fn each_once(
+    fn separate_crossings(
         &self,
         [a, b]: [&Spectrum; 2],
         order: f64,
@@ -364,7 +369,7 @@ impl<'a, T: Tangents> Search<'a, T> {
         roots: &[Option<(f64, Eigenpair)>],
     ) -> Option<Vec<CriticalSpeed>> {
         // With modal damping the iterations end before all digits of a shape.
-        if self.assembly.modal.is_some() || !self.assembly.modal_damping.is_empty() {
+        if self.assembly.has_modal_damping() {
             return None;
         }
         let labels = a.labels.get(..indices.end)?;
@@ -390,7 +395,7 @@ impl<'a, T: Tangents> Search<'a, T> {
         let crossing = |((speed, (value, shape)), label): (&(f64, Eigenpair), &String)| {
             let mut mode = mode_kind::characterise(self.assembly, *value, shape.clone());
             let line = order * speed;
-            let name = mode_kind::unnumbered(self.assembly, &mode);
+            let name = mode_kind::label_without_number(self.assembly, &mode);
             let known = *label == name || label.split_once(' ').is_some_and(|(_, rest)| rest == name);
             (known && (mode.omega() - line).abs() <= ON_LINE * line).then(|| {
                 mode.label.clone_from(label);
