@@ -81,8 +81,7 @@ fn has_free_balls(model: &Model, bearing: &str) -> bool {
 fn groups(defaults: &[DefaultValue]) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     for default in defaults {
-        let declared = keys::find(&default.path).ok().and_then(|found| found.keys.into_iter().next());
-        let key = declared.map_or_else(|| default.path.clone(), |key| key.path);
+        let key = keys::declared_path(&default.path).unwrap_or_else(|_| default.path.clone());
         let item = item_of(&default.path, &key);
         let value = plain(&default.value).to_string();
         match groups.iter_mut().find(|group| group.key == key && group.value == value) {

@@ -14,6 +14,7 @@ use crate::file::renamed::renamed_part;
 use rotordyn_units::NUMBER;
 use rotordyn_units::names::nearest;
 use serde_json::{Value, json};
+use std::rc::Rc;
 
 /// A key as plain text.
 #[derive(Clone, Debug, PartialEq)]
@@ -168,11 +169,21 @@ fn suggestion(nearest: &[String]) -> String {
 
 /// A declared key where it stands.
 struct Place {
-    path: String,
-    conditions: Vec<&'static str>,
+    /// Path of its table; empty for the whole file.
+    table: Rc<str>,
+    conditions: Rc<[&'static str]>,
     key: &'static dyn Declared,
     /// Dimension and range of a key of evenly spaced values.
     each: Option<Quantity>,
+}
+
+impl Place {
+    fn path(&self) -> String {
+        match &*self.table {
+            "" => self.key.name().into(),
+            table => format!("{table}.{}", self.key.name()),
+        }
+    }
 }
 
 /// Find a key by its path, with or without names of items: `bearing.preload.force`, `bearing.B.preload`, `station.A`.
@@ -180,6 +191,42 @@ struct Place {
 /// # Errors
 /// A path that is not declared, with the nearest ones.
 pub fn find(path: &str) -> Result<Found, UnknownKey> {
+    let Located { here, members, renamed } = locate(path)?;
+    Ok(Found {
+        path: here.first().map_or_else(String::new, Place::path),
+        keys: here.iter().map(description).collect(),
+        members: members.iter().map(description).collect(),
+        former: renamed.then(|| path.to_string()),
+    })
+}
+
+/// The description of a key by its path, the first one of a key with several forms; `None` for the whole file.
+///
+/// # Errors
+/// As [`find`].
+pub fn describe_key(path: &str) -> Result<Option<KeyDescription>, UnknownKey> {
+    Ok(locate(path)?.here.first().map(description))
+}
+
+/// The path of a key without names of items, as [`KeyDescription::path`]; empty for the whole file.
+///
+/// # Errors
+/// As [`find`].
+pub fn declared_path(path: &str) -> Result<String, UnknownKey> {
+    Ok(locate(path)?.here.first().map_or_else(String::new, Place::path))
+}
+
+/// Where a path leads.
+struct Located {
+    /// The key, in all its forms; empty for the whole file.
+    here: Vec<Place>,
+    /// Keys of the tables that it is.
+    members: Vec<Place>,
+    /// Whether a part of the path has been renamed.
+    renamed: bool,
+}
+
+fn locate(path: &str) -> Result<Located, UnknownKey> {
     let mut here: Vec<Place> = Vec::new();
     let mut members = keys_of(&FILE, "");
     let mut canonical: Vec<String> = Vec::new();
@@ -213,12 +260,7 @@ pub fn find(path: &str) -> Result<Found, UnknownKey> {
             canonical.push("*".into());
         }
     }
-    Ok(Found {
-        path: here.first().map_or_else(String::new, |place| place.path.clone()),
-        keys: here.iter().map(description).collect(),
-        members: members.iter().map(description).collect(),
-        former: renamed.then(|| path.to_string()),
-    })
+    Ok(Located { here, members, renamed })
 }
 
 /// Every declared key of the file, tables before their keys.
@@ -242,7 +284,7 @@ pub fn meaning() -> &'static str {
 fn unknown(path: &str, part: &str, members: &[Place]) -> UnknownKey {
     let mut found: Vec<String> = Vec::new();
     if let Some(near) = nearest(part, members.iter().map(|place| place.key.name())) {
-        found.extend(members.iter().find(|place| place.key.name() == near).map(|place| place.path.clone()));
+        found.extend(members.iter().find(|place| place.key.name() == near).map(Place::path));
     }
     // the key of another table: its last part is known elsewhere
     let last = path.rsplit('.').next().unwrap_or(path);
@@ -262,15 +304,16 @@ fn unknown(path: &str, part: &str, members: &[Place]) -> UnknownKey {
 /// Keys of a table, each once for all conditions under which its group is read.
 fn keys_of(table: &'static Table, path: &str) -> Vec<Place> {
     let same = |a: &Group, b: &Group| std::ptr::eq(a.keys.as_ptr(), b.keys.as_ptr());
+    let path: Rc<str> = path.into();
     let mut places = Vec::new();
     for (k, group) in table.groups.iter().enumerate() {
         if table.groups[..k].iter().any(|earlier| same(earlier, group)) {
             continue;
         }
-        let conditions: Vec<&str> =
+        let conditions: Rc<[&str]> =
             table.groups.iter().filter(|other| same(other, group)).map(|other| other.condition).collect();
         places.extend(group.keys.iter().map(|key| Place {
-            path: if path.is_empty() { key.name().into() } else { format!("{path}.{}", key.name()) },
+            table: path.clone(),
             conditions: conditions.clone(),
             key: *key,
             each: None,
@@ -282,10 +325,10 @@ fn keys_of(table: &'static Table, path: &str) -> Vec<Place> {
 fn members_of(place: &Place) -> Vec<Place> {
     match place.key.kind() {
         ValueKind::SubTable(table) | ValueKind::NamedTables(table) | ValueKind::TableList(table) => {
-            keys_of(table, &place.path)
+            keys_of(table, &place.path())
         }
         ValueKind::Spaced(each) => {
-            let mut members = keys_of(SpacedKeys::TABLE, &place.path);
+            let mut members = keys_of(SpacedKeys::TABLE, &place.path());
             members.iter_mut().for_each(|member| member.each = Some(each));
             members
         }
@@ -317,7 +360,7 @@ fn describe(place: &Place, key: &dyn Declared) -> KeyDescription {
         _ => String::new(),
     };
     KeyDescription {
-        path: place.path.clone(),
+        path: place.path(),
         name: key.name(),
         kind: value.kind,
         value: value.words,
@@ -327,7 +370,7 @@ fn describe(place: &Place, key: &dyn Declared) -> KeyDescription {
         required: matches!(about.absent, Absent::Required | Absent::RequiredIf("")),
         default,
         absent,
-        groups: place.conditions.clone(),
+        groups: place.conditions.to_vec(),
         condition: about.condition,
         meaning: about.meaning,
         example: key.example(),

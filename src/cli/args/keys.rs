@@ -7,8 +7,8 @@ use rotordyn::model::keys::{self, KeyDescription};
 /// # Panics
 /// The path is not declared; a test builds every help text.
 pub fn key(path: &str) -> KeyDescription {
-    let found = keys::find(path).unwrap_or_else(|unknown| panic!("{unknown}"));
-    found.keys.into_iter().next().unwrap_or_else(|| panic!("{path} is the whole file"))
+    let found = keys::describe_key(path).unwrap_or_else(|unknown| panic!("{unknown}"));
+    found.unwrap_or_else(|| panic!("{path} is the whole file"))
 }
 
 /// Default of a key as it is written in a file.
