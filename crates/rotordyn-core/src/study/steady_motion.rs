@@ -15,9 +15,10 @@ use crate::results::{
     LyapunovResult, PlaneSection, PoincareResult, RecordedPeriods, SectionChannel, SectionClock,
     SteadyMotion, Whirl, is_rotation, unit_of,
 };
+use crate::transient::channels::Channel;
 use crate::transient::reduction::{Reduction, reduce};
 use crate::transient::steady::{SteadyRun, SteadySnapshot, SteadyStart, run_steady_from};
-use crate::transient::system::{Channel, State};
+use crate::transient::system::State;
 use rotordyn_signal::lyapunov::lyapunov_exponent;
 use rotordyn_signal::motion_classification::classify_motion;
 use rotordyn_signal::orbit::FilteredOrbit;

@@ -2,6 +2,7 @@
 //! constant speed.
 
 pub mod cage;
+pub mod channels;
 mod defect_steps;
 pub mod energy;
 mod free_bodies;

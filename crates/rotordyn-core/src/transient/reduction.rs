@@ -7,14 +7,15 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::channels::{Channel, Channels};
 use super::interface::Interface;
 use super::panels::Panels;
-use super::system::{Channel, System, VaryingLoad};
+use super::system::{System, VaryingLoad};
 use super::torque::{RotatingUnbalance, TorqueDrive};
 use crate::analysis::equilibrium::Equilibrium;
 use crate::assembly::dense_limit::check_dense;
 use crate::assembly::{Assembly, ModalDamping, PhysicsError};
-use crate::model::{Drive, LoadFactor, Model};
+use crate::model::{Drive, LoadFactor, Model, Probe};
 use rotordyn_bearing::Rotation;
 use rotordyn_linalg::{SparseMatrix, SparseRow, Triplets, eigen};
 
@@ -264,6 +265,11 @@ pub fn reduce(
     let interface_map =
         if rows.is_empty() { DMatrix::zeros(0, basis.ncols()) } else { DMatrix::from_rows(&rows) };
     let natural_frequency = |k: usize, _| if k < modes { squares[k].max(0.0).sqrt() } else { 0.0 };
+    let channel = |p: &Probe| Channel {
+        name: p.name.clone(),
+        row: row(&assembly.direction_row(&p.at, &p.direction)),
+        quantity: p.quantity,
+    };
     let system = System {
         natural_frequencies: DVector::from_fn(basis.ncols(), natural_frequency),
         panels: Panels::new(matrices, &interface_map),
@@ -282,15 +288,7 @@ pub fn reduce(
         interface_map,
         interfaces,
         internal_masses,
-        channels: model
-            .probes
-            .iter()
-            .map(|p| Channel {
-                name: p.name.clone(),
-                row: row(&assembly.direction_row(&p.at, &p.direction)),
-                quantity: p.quantity,
-            })
-            .collect(),
+        channels: Channels::new(model.probes.iter().map(channel).collect()),
         curve: model.profile.curve(),
         drive,
     };

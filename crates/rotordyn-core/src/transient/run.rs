@@ -3,10 +3,11 @@
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
+use super::channels::Channel;
 use super::defect_steps::{DefectSteps, Vibration};
 use super::energy::{Energy, EnergyBalance};
 use super::stepper::{Stepper, StepperMemory, check_divergence};
-use super::system::{Channel, State, System};
+use super::system::{State, System};
 use crate::assembly::PhysicsError;
 use crate::model::Quantity;
 use crate::model::study::Integrator;
@@ -304,7 +305,7 @@ impl Run {
         for index in from..=grid.samples {
             interval.clear();
             if index == 0 {
-                read_channels(system, &self.state, &mut interval.steps);
+                system.channels.read(self.state.motion(), &mut interval.steps);
             } else if let Err(error) = self.advance(system, grid, index, &mut interval) {
                 end = End::Failed(error);
                 break;
@@ -387,10 +388,10 @@ impl Run {
                     Ok(())
                 })?;
                 if parts > 1 {
-                    read_channels(system, state, &mut channels.parts);
+                    system.channels.read(state.motion(), &mut channels.parts);
                 }
             }
-            read_channels(system, state, &mut channels.steps);
+            system.channels.read(state.motion(), &mut channels.steps);
             channels.is_divided.push(parts > 1);
         }
         check_divergence(system, state)
@@ -404,7 +405,7 @@ impl Run {
 /// v₁ − v₀ + ½ h₁ (a₁ − a₀) + (γ − ½)(h₀ a₀ − h₁ a₁) for an acceleration, ½ h₁ (v₁ − v₀) + (β − ½γ)(h₀² a₀ − h₁² a₁) for a velocity.
 fn change_step(system: &System, state: &mut State, stepper: &Stepper, [h0, h1]: [f64; 2]) -> Vec<f64> {
     let read = |state: &State| -> Vec<[f64; 2]> {
-        system.channels.iter().map(|channel| channel.velocity_and_acceleration(state)).collect()
+        system.channels.iter().map(|channel| channel.velocity_and_acceleration(state.motion())).collect()
     };
     let before = read(state);
     stepper.fit_inertias(system, state, h1);
@@ -416,11 +417,6 @@ fn change_step(system: &System, state: &mut State, stepper: &Stepper, [h0, h1]: 
         Quantity::Acceleration => v1 - v0 + 0.5 * h1 * (a1 - a0) + gamma * (h0 * a0 - h1 * a1),
     };
     system.channels.iter().zip(before.into_iter().zip(after)).map(impulse).collect()
-}
-
-/// Appends the channels of a state to `out`.
-fn read_channels(system: &System, state: &State, out: &mut Vec<f64>) {
-    out.extend(system.channels.iter().map(|channel| channel.read(state)));
 }
 
 /// Means of the channels over a sampling interval, by the trapezoidal rule over the steps.
@@ -435,9 +431,10 @@ struct IntervalMeans {
 impl IntervalMeans {
     /// At the start, where they are the values; nothing without free bodies.
     fn new(system: &System, state: &State) -> Self {
-        let size = if system.has_bodies() { system.channels.len() } else { 0 };
-        let mut now = vec![0.0; size];
-        system.read_channels(state, &mut now);
+        let mut now = Vec::new();
+        if system.has_bodies() {
+            system.channels.read(state.motion(), &mut now);
+        }
         Self { sums: now.clone(), before: now.clone(), now }
     }
 
@@ -456,7 +453,8 @@ impl IntervalMeans {
             return;
         }
         std::mem::swap(&mut self.before, &mut self.now);
-        system.read_channels(state, &mut self.now);
+        self.now.clear();
+        system.channels.read(state.motion(), &mut self.now);
         for ((sum, before), now) in self.sums.iter_mut().zip(&self.before).zip(&self.now) {
             *sum += 0.5 * share * (before + now);
         }

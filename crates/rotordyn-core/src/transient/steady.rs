@@ -5,9 +5,10 @@ use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
+use super::channels::Channel;
 use super::perturbed_trajectory::{PerturbedSnapshot, PerturbedTrajectory};
 use super::stepper::{Stepper, StepperMemory, check_divergence};
-use super::system::{Channel, State, System};
+use super::system::{State, System};
 use crate::assembly::PhysicsError;
 use crate::model::study::{SectionTrigger, SteadyRunSettings};
 
@@ -296,7 +297,7 @@ impl SteadyRun {
         self.phase.push(phase);
         self.shaft_angle.push(self.state.spin.angle);
         for (channel, values) in channels.iter().zip(&mut self.channels) {
-            values.push(channel.read(&self.state));
+            values.push(channel.read(self.state.motion()));
         }
     }
 }

@@ -8,13 +8,14 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
+use super::channels::Channels;
 use super::inertias::Inertias;
 use super::interface::{Interface, StepTangents};
 use super::numbers::vector;
 use super::panels::Panels;
 use super::torque::{DrivenState, TorqueDrive};
 use crate::assembly::PhysicsError;
-use crate::model::{LoadFactor, Quantity, SpeedCurve, Spin};
+use crate::model::{LoadFactor, SpeedCurve, Spin};
 use rotordyn_bearing::internal::{InternalStep, Motion, NewmarkGain};
 use rotordyn_bearing::{Reaction, Rotation};
 use rotordyn_linalg::panel::Panel;
@@ -24,32 +25,6 @@ use rotordyn_linalg::panel::Panel;
 pub struct VaryingLoad {
     pub vector: DVector<f64>,
     pub factor: LoadFactor,
-}
-
-/// One output channel (virtual sensor): row · x (or ẋ, ẍ).
-#[derive(Clone, Debug)]
-pub struct Channel {
-    pub name: String,
-    pub row: DVector<f64>,
-    pub quantity: Quantity,
-}
-
-impl Channel {
-    /// The channel's value at a state.
-    pub fn read(&self, state: &State) -> f64 {
-        self.row.dot(match self.quantity {
-            Quantity::Displacement => &state.x,
-            Quantity::Velocity => &state.v,
-            Quantity::Acceleration => &state.a,
-        })
-    }
-}
-
-impl Channel {
-    /// Velocity and acceleration of the channel's row.
-    pub fn velocity_and_acceleration(&self, state: &State) -> [f64; 2] {
-        [&state.v, &state.a].map(|motion| self.row.dot(motion))
-    }
 }
 
 /// The reduced machine; immutable during a run. Matrices are over the structure, vectors over all coordinates.
@@ -75,7 +50,7 @@ pub struct System {
     pub interfaces: Vec<Interface>,
     /// Mass of every internal coordinate \[kg\].
     pub internal_masses: Vec<f64>,
-    pub channels: Vec<Channel>,
+    pub channels: Channels,
     pub curve: SpeedCurve,
     /// Torque drive, if the shaft speed follows from a torque balance instead of the profile.
     pub drive: Option<TorqueDrive>,
@@ -122,6 +97,11 @@ pub struct Bodies<'a> {
 }
 
 impl State {
+    /// x, ẋ and ẍ, the acceleration of an implicit integrator.
+    pub fn motion(&self) -> [&DVector<f64>; 3] {
+        [&self.x, &self.v, &self.a]
+    }
+
     /// Whether it is one of a system of this size.
     pub fn fits(&self, system: &System) -> bool {
         let driven = if system.drive.is_some() { system.size() } else { 0 };
@@ -463,12 +443,5 @@ impl System {
         self.add_from_interface(&state.force, &mut acceleration);
         state.inertias.divide(&mut acceleration);
         state.acceleration = acceleration;
-    }
-
-    /// Reads every channel at a state into `out`.
-    pub fn read_channels(&self, state: &State, out: &mut [f64]) {
-        for (value, channel) in out.iter_mut().zip(&self.channels) {
-            *value = channel.read(state);
-        }
     }
 }
