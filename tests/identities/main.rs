@@ -12,6 +12,7 @@ mod automatic_ball_inertia;
 mod bearing_solver;
 mod complete_crossings;
 mod double_eigenvalues;
+mod heavily_damped;
 mod linear;
 mod many_at_once;
 mod modal_damping;

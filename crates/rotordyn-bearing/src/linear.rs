@@ -185,6 +185,12 @@ impl BearingModel for LinearBearing {
         LinearElement::new(self).tangent(0.0).stiffness
     }
 
+    fn table_speeds(&self) -> Vec<f64> {
+        let mut speeds: Vec<f64> = self.table.iter().map(|row| row.speed).collect();
+        speeds.dedup();
+        if speeds.len() > 1 { speeds } else { Vec::new() }
+    }
+
     fn speed_range(&self) -> Option<SpeedRange> {
         self.table_range().map(|speeds| SpeedRange { speeds, beyond: self.beyond })
     }

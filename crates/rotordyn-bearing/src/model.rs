@@ -58,6 +58,11 @@ pub trait BearingModel: Debug {
         None
     }
 
+    /// Speeds of the nodes of the bearing's table \[rad/s\]; none without one.
+    fn table_speeds(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
     /// The same bearing with a cage that rolls without slip; `None` unless its balls are free bodies.
     fn with_rolling_cage(&self) -> Option<Bearing> {
         None

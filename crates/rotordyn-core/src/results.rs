@@ -45,7 +45,7 @@ pub use case_comparison::{
 pub use critical::CriticalResult;
 pub use critical_map::CriticalMap;
 pub use free_ball::{CageComparison, FreeBallMean, FreeBallRecord, FreeBallResult, LOSS_NAMES, SkiddingMap};
-pub use frf::FrfResult;
+pub use frf::{FrfResult, LeastDampedMode};
 pub use history::{History, HistoryChannel};
 pub use lyapunov::LyapunovResult;
 pub use modal::ModalResult;

@@ -68,7 +68,8 @@ pub fn general(a: &DMatrix<f64>) -> Result<(Vec<Complex64>, DMatrix<Complex64>),
 
 /// Eigenpairs of a small real matrix with Im θ ≥ 0 (one of each conjugate pair), in no given order.
 ///
-/// By the real Schur form A = Q T Qᵀ of nalgebra, several times faster than faer below a hundred rows.
+/// By the real Schur form A = Q T Qᵀ of nalgebra, several times faster than faer below a hundred rows; by [`general`] where its
+/// iteration does not converge, as in clusters of eigenvalues far from normal.
 ///
 /// # Errors
 /// No convergence, or entries that are not finite.
@@ -77,8 +78,11 @@ pub fn general_small(a: &DMatrix<f64>) -> Result<Vec<(Complex64, Vec<Complex64>)
         return Err(EigenError::NotFinite);
     }
     let n = a.nrows();
-    let schur =
-        nalgebra::Schur::try_new(a.clone(), f64::EPSILON, 100 * n).ok_or(EigenError::NoConvergence)?;
+    let Some(schur) = nalgebra::Schur::try_new(a.clone(), f64::EPSILON, 100 * n) else {
+        let (values, vectors) = general(a)?;
+        let pairs = values.into_iter().zip(vectors.column_iter()).filter(|(theta, _)| theta.im >= 0.0);
+        return Ok(pairs.map(|(theta, vector)| (theta, vector.iter().copied().collect())).collect());
+    };
     let (q, t) = schur.unpack();
     let mut pairs = Vec::with_capacity(n);
     let mut k = 0;

@@ -9,6 +9,9 @@ use nalgebra::DMatrix;
 /// from normal may take a hundred. After every tenth for one eigenvalue the shifts are unusual ones.
 const MAX_STEPS: usize = 60;
 const UNUSUAL: usize = 10;
+/// Steps for one eigenvalue after which subdiagonal elements are neglected that are round-off of the whole matrix, not of their
+/// neighbours alone: a cluster far from normal may keep them at that.
+const PATIENCE: usize = 40;
 /// Solutions of the inverse iteration: the first is close already, since the eigenvalue is exact but for round-off.
 const SOLUTIONS: usize = 2;
 /// Largest residual of the recurrence, relative to the eigenvalue and the length of the vector.
@@ -25,12 +28,13 @@ pub fn eigenvalues(h: &DMatrix<f64>) -> Result<Vec<Complex64>, EigenError> {
         return Err(EigenError::NotFinite);
     }
     let mut h = h.clone();
-    let smallest = f64::EPSILON * h.amax();
+    let (smallest, whole) = (f64::EPSILON * h.amax(), h.norm());
     let mut values = Vec::with_capacity(h.nrows());
     let mut end = h.nrows();
     let (mut steps, mut all) = (0, 0);
     while end > 0 {
-        let start = start_of_active_block(&mut h, end, smallest);
+        let least_size = if steps < PATIENCE { smallest } else { whole };
+        let start = start_of_active_block(&mut h, end, least_size);
         match end - start {
             1 => values.push(h[(start, start)].into()),
             2 => values.extend(eigenvalues_of_two(&h, start)),

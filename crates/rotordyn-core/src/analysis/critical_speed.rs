@@ -3,12 +3,14 @@
 //! | module | contents |
 //! |---|---|
 //! | `search` | all crossings over a range of speeds, without tracking of modes |
+//! | `spectrum` | the modes at one speed that take part |
 //! | `refine` | one crossing, refined on its own mode by inverse iteration |
 //! | `undamped` | undamped critical speeds with constant bearings, solved directly or counted |
 
 mod crossing;
 mod refine;
 mod search;
+mod spectrum;
 mod undamped;
 
 pub use crossing::{CriticalSpeed, CrossingList, UncertainRange};
@@ -18,15 +20,18 @@ use super::campbell::{Campbell, ModeValue, Tangents};
 use super::mode_kind::ModeKind;
 use crate::analysis::modal::Mode;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
+use rayon::prelude::*;
 use rotordyn_linalg::Complex64;
-use search::{Search, Spectrum};
+use search::Search;
+use spectrum::{Spectrum, is_heavily_damped};
 
 /// Number of speeds of the search, both ends included.
 pub const SPEEDS: usize = 33;
 
 /// All crossings of damped modes with the lines ω_d = n Ω from one speed to another; damping and bearings included.
 ///
-/// Modes with a damping ratio above 0.6 are searched only if damping ratios above 0.3 occur, up to 0.94.
+/// Modes with a damping ratio above 0.6 are searched only if damping ratios above 0.3 occur, up to 0.94. `nodes`: speeds between
+/// which the bearings' coefficients run without a turn, those of their tables.
 ///
 /// # Errors
 /// Errors of the tangents or of an eigenvalue computation.
@@ -35,15 +40,17 @@ pub fn critical_speeds(
     [from, to]: [f64; 2],
     orders: &[f64],
     tangents: &impl Tangents,
+    nodes: &[f64],
 ) -> Result<CrossingList, PhysicsError> {
     let search = Search::new(assembly, tangents, orders, None);
     let speeds: Vec<f64> = (0..SPEEDS).map(|k| from + (to - from) * k as f64 / (SPEEDS - 1) as f64).collect();
-    search.run(search.spectra(&speeds)?, orders)
+    search.run(search.with_speeds(search.spectra(&speeds)?, nodes)?, orders)
 }
 
 /// Crossings of the modes of a Campbell diagram with the lines ω_d = n Ω within its speeds.
 ///
-/// At every speed the lowest modes, as many as the diagram has, take part, whether tracked or not.
+/// At every speed the lowest modes, as many as the diagram has, take part, whether tracked or not; but for those with damping
+/// ratios above 0.94. `nodes`: as in [`critical_speeds`].
 ///
 /// # Errors
 /// As [`critical_speeds`].
@@ -52,12 +59,18 @@ pub fn crossings(
     diagram: &Campbell,
     orders: &[f64],
     tangents: &impl Tangents,
+    nodes: &[f64],
 ) -> Result<CrossingList, PhysicsError> {
     let search = Search::new(assembly, tangents, orders, Some(diagram.count));
     let at = |(speed, modes): (&f64, &Vec<ModeValue>)| {
-        Spectrum::new(*speed, modes.iter().map(|m| (m.eigenvalue, m.label.clone())))
+        // The diagram has the lowest |λ|, the search needs the lowest damped frequencies.
+        if modes.iter().any(|m| is_heavily_damped(m.eigenvalue)) {
+            return search.spectrum(*speed, 0);
+        }
+        Ok(Spectrum::new(*speed, modes.iter().map(|m| (m.eigenvalue, m.label.clone()))))
     };
-    search.run(diagram.speeds.iter().zip(&diagram.all).map(at).collect(), orders)
+    let spectra = diagram.speeds.par_iter().zip(&diagram.all).map(at).collect::<Result<_, PhysicsError>>()?;
+    search.run(search.with_speeds(spectra, nodes)?, orders)
 }
 
 /// λ of the mode of a system that continues a mode of a similar one; `None` if the iteration leaves it.

@@ -4,6 +4,7 @@ pub use super::mode::Mode;
 use super::mode::inner;
 use super::mode_kind;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
+use rotordyn_linalg::inertia::negative_eigenvalues;
 use rotordyn_linalg::{Complex64, SparseMatrix, krylov};
 use std::f64::consts::TAU;
 
@@ -54,6 +55,13 @@ pub(super) fn eigenpairs(
     Ok(pairs.into_iter().map(|p| (p.value, mass_normalised(p.vector, &assembly.mass))).collect())
 }
 
+/// Number of undamped modes with frequencies below ω \[rad/s\], rigid-body modes counted, by Sylvester's law of inertia: that of
+/// the negative eigenvalues of K − ω² M + jω Ω G. Damping and the skew-symmetric part of S are left out.
+pub(super) fn undamped_modes_below(system: &LinearSystem, omega: f64) -> usize {
+    let real = SparseMatrix::sum(&[(1.0, &system.stiffness), (-omega * omega, &system.mass)]);
+    negative_eigenvalues(&real, &SparseMatrix::sum(&[(omega, &system.damping)]))
+}
+
 /// The lowest eigenpairs, at least `count`, raised until the last lies at |λ| = `reach` of those found or beyond.
 ///
 /// # Errors
@@ -66,7 +74,8 @@ pub(super) fn eigenpairs_up_to(
 ) -> Result<Vec<Eigenpair>, PhysicsError> {
     loop {
         let pairs = eigenpairs(assembly, system, count)?;
-        if pairs.get(count - 1).is_none_or(|last| last.0.norm() >= reach(&pairs)) {
+        let reach = reach(&pairs);
+        if pairs.get(count - 1).is_none_or(|last| last.0.norm() >= reach) {
             return Ok(pairs);
         }
         count += 4 + count / 2;

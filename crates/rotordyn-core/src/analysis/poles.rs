@@ -12,7 +12,8 @@ use rotordyn_linalg::Complex64;
 const UNDAMPED: f64 = 1e-9;
 /// Poles of FRFs are sought up to this multiple of the highest frequency.
 const FRF_REACH: f64 = 1.1;
-const START_MODES: usize = 12;
+/// Fewest modes sought, of which the least stable may lie above the highest frequency.
+const FEWEST_MODES: usize = 12;
 /// Largest number of modes sought; above them a grid is refined by the curvature alone.
 const MAX_MODES: usize = 160;
 /// Poles this far beyond a range of speeds are included, as a fraction of the range.
@@ -68,17 +69,21 @@ impl Pole {
 /// As [`modal::modes`].
 pub fn frf_poles(assembly: &Assembly, system: &LinearSystem, max_hz: f64) -> Result<Vec<Pole>, PhysicsError> {
     use std::f64::consts::TAU;
+    let highest = FRF_REACH * TAU * max_hz;
     let reach = |found: &[modal::Eigenpair]| match found.len() {
-        ..MAX_MODES => FRF_REACH * TAU * max_hz,
+        ..MAX_MODES => highest,
         _ => 0.0,
     };
-    let pairs = modal::eigenpairs_up_to(assembly, system, START_MODES, reach)?;
+    // And the one beyond.
+    let expected = modal::undamped_modes_below(system, highest) + 1;
+    let pairs = modal::eigenpairs_up_to(assembly, system, expected.clamp(FEWEST_MODES, MAX_MODES), reach)?;
     let modes = modal::modes_of(assembly, system, pairs);
     Ok(modes.iter().map(|mode| Pole::of(mode, mode.frequency_hz(), mode.eigenvalue.re / TAU)).collect())
 }
 
 /// Poles of the unbalance response from one speed to another \[rad/s\] and a little beyond: the critical speeds of
-/// order 1, λ(Ω) with Im λ = Ω; half-width |Re λ|/|1 − dω/dΩ|.
+/// order 1, λ(Ω) with Im λ = Ω; half-width |Re λ|/|1 − dω/dΩ|. `nodes`: as in
+/// [`critical_speeds`](critical_speed::critical_speeds).
 ///
 /// # Errors
 /// As [`critical_speeds`](critical_speed::critical_speeds).
@@ -86,13 +91,14 @@ pub fn synchronous_poles(
     assembly: &Assembly,
     [low, high]: [f64; 2],
     tangents: &impl Tangents,
+    nodes: &[f64],
 ) -> Result<Vec<Pole>, PhysicsError> {
     if high <= low || high <= 0.0 {
         return Ok(Vec::new());
     }
     let margin = MARGIN * (high - low);
     let range = [(low - margin).max(0.0), high + margin];
-    let found = critical_speed::critical_speeds(assembly, range, &[1.0], tangents)?;
+    let found = critical_speed::critical_speeds(assembly, range, &[1.0], tangents, nodes)?;
     let pole = |critical: &CriticalSpeed| {
         let slope = critical.frequency_slope(assembly, tangents)?;
         let half_width = critical.mode.eigenvalue.re / (1.0 - slope).abs().max(SMALLEST_ANGLE);

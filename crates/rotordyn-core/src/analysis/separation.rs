@@ -63,7 +63,7 @@ impl Assessment {
 
 /// The margins of every pole of an unbalance response, by speed; without torsional and axial modes that it does not excite.
 ///
-/// A peak belongs to the nearest pole; of several peaks of a pole the one with the largest AF counts, which requires the
+/// A peak belongs to the pole that is nearest in place and width; of several peaks of a pole the one with the largest AF counts, which requires the
 /// largest margin. `excited` says whether the unbalance excites a pole.
 pub fn separation_margins(
     poles: &[Pole],
@@ -75,9 +75,18 @@ pub fn separation_margins(
     let distance = |pole: &Pole, peak: &Peak| {
         (peak.at - pole.at).abs() / (REACH[0] * pole.half_width).max(REACH[1] * pole.at)
     };
+    // How much wider or narrower the peak is than the mode makes it, as a logarithm: a sharp peak on the flank of a well damped
+    // mode is not that mode's.
+    let misfit = |pole: &Pole, peak: &Peak| match peak.half_power {
+        Some([low, high]) if high > low && pole.half_width > 0.0 => {
+            (2.0 * pole.half_width / (high - low)).ln().abs()
+        }
+        _ => 0.0,
+    };
     let owner = |peak: &Peak| {
-        let nearest = excited.iter().min_by(|a, b| distance(a, peak).total_cmp(&distance(b, peak)));
-        nearest.filter(|pole| distance(pole, peak) <= 1.0).map(|pole| pole.at)
+        let near = excited.iter().filter(|pole| distance(pole, peak) <= 1.0);
+        let cost = |pole: &Pole| distance(pole, peak).hypot(misfit(pole, peak));
+        near.min_by(|a, b| cost(a).total_cmp(&cost(b))).map(|pole| pole.at)
     };
     let not_lateral = [ModeKind::Torsional, ModeKind::Axial];
     let mut found: Vec<SeparationMargin> = poles
@@ -193,6 +202,21 @@ mod tests {
         let factors: Vec<_> = found.iter().map(|m| m.amplification.map(f64::round)).collect();
         assert_eq!(factors, [Some(40.0), Some(30.0)]);
         assert_eq!(found[0].peak, Some(100.2));
+    }
+
+    #[test]
+    fn a_sharp_peak_on_the_flank_of_a_broad_mode_is_not_its_peak() {
+        // In speed the peak is nearer to the broad mode, measured by half-widths.
+        let poles = [Pole::new(100.0, 5.0), Pole::new(101.0, 80.0)];
+        for at in [100.3, 101.0] {
+            let found = separation_margins(&poles, &[peak(at, 10.0)], |_| true, None);
+            assert_eq!(found[0].amplification.map(f64::round), Some(10.0), "{at}");
+            assert_eq!(found[1].amplification, None, "{at}");
+            assert_eq!(found[1].assessment, Assessment::CriticallyDamped, "{at}");
+        }
+        // And the broad peak of a broad mode is not that of the sharp one.
+        let found = separation_margins(&poles, &[peak(101.5, 0.7)], |_| true, None);
+        assert_eq!((found[0].amplification, found[1].amplification.is_some()), (None, true));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Stability threshold (onset speed of instability): the speed where a mode's damping vanishes.
 
 use super::campbell::{Campbell, EXTRA_MODES, Tangents, Tracker};
+use super::critical_speed::CriticalSpeed;
 use super::modal::Mode;
 use crate::assembly::{Assembly, PhysicsError};
 use serde::{Deserialize, Serialize};
@@ -16,33 +17,76 @@ pub struct Threshold {
     pub mode: Mode,
 }
 
-/// Speeds where Re λ of a tracked branch changes sign, by speed.
+/// Damping ratio below which a mode is unstable, not undamped to round-off.
+pub const UNSTABLE: f64 = -1e-9;
+
+/// Speeds where Re λ of a tracked branch changes sign, by speed; `crossings`: modes known between the speeds of the diagram.
 ///
 /// # Errors
 /// As [`campbell`](super::campbell::campbell).
 pub fn thresholds(
     assembly: &Assembly,
     diagram: &Campbell,
+    crossings: &[CriticalSpeed],
     tangents: &impl Tangents,
 ) -> Result<Vec<Threshold>, PhysicsError> {
     let tracker = Tracker { assembly, tangents, count: diagram.count + EXTRA_MODES };
     let mut found = Vec::new();
-    for branch in &diagram.branches {
-        for (k, pair) in branch.modes.windows(2).enumerate() {
-            let [Some(a), Some(b)] = pair else { continue };
-            // The real part of an undamped mode is round-off at both ends: no crossing.
-            let unstable = |m: &Mode| m.eigenvalue.re >= 0.0;
-            let real = a.zeta().abs().max(b.zeta().abs()) > 1e-9;
-            if real && unstable(a) != unstable(b) {
-                let ends = ((diagram.speeds[k], a), (diagram.speeds[k + 1], b));
-                let (speed, mode) = tracker.root(ends.0, ends.1, |m, _| m.eigenvalue.re)?;
-                let unstable_above = unstable(b);
-                found.push(Threshold { speed, unstable_above, mode });
+    for (k, range) in diagram.speeds.windows(2).enumerate() {
+        let ends: Vec<[&Mode; 2]> = diagram
+            .branches
+            .iter()
+            .filter_map(|branch| branch.modes[k].as_ref().zip(branch.modes[k + 1].as_ref()))
+            .map(|(a, b)| [a, b])
+            .collect();
+        let known = between(&tracker, &ends, crossings, range);
+        for ([a, b], inner) in ends.into_iter().zip(known) {
+            let path = [(range[0], a)].into_iter().chain(inner).chain([(range[1], b)]);
+            for step in path.collect::<Vec<_>>().windows(2) {
+                let unstable_above = is_unstable(step[1].1);
+                if is_unstable(step[0].1) != unstable_above {
+                    // The real part of an undamped mode at one end is round-off of either sign.
+                    let [left, right] = [step[0].1, step[1].1].map(|mode| mode.eigenvalue.re > 0.0);
+                    let least = if left == right { -UNSTABLE } else { 0.0 };
+                    let gap = |m: &Mode, _| m.eigenvalue.re - least * m.natural_omega();
+                    let (speed, mode) = tracker.root(step[0], step[1], gap)?;
+                    found.push(Threshold { speed, unstable_above, mode });
+                }
             }
         }
     }
     found.sort_by(|a, b| a.speed.total_cmp(&b.speed));
     Ok(found)
+}
+
+fn is_unstable(mode: &Mode) -> bool {
+    mode.zeta() < UNSTABLE
+}
+
+/// The crossings within a range of speeds that tell of a threshold, by speed, for each of the branches with these modes at its
+/// ends: a crossing belongs to the branch whose shapes are the most similar.
+fn between<'a>(
+    tracker: &Tracker<impl Tangents>,
+    ends: &[[&Mode; 2]],
+    crossings: &'a [CriticalSpeed],
+    range: &[f64],
+) -> Vec<Vec<(f64, &'a Mode)>> {
+    let mut known = vec![Vec::new(); ends.len()];
+    let tells = |mode: &Mode| ends.iter().flatten().any(|end| is_unstable(end) != is_unstable(mode));
+    let inside = |crossing: &&CriticalSpeed| crossing.speed > range[0] && crossing.speed < range[1];
+    for crossing in crossings.iter().filter(inside).filter(|crossing| tells(&crossing.mode)) {
+        let likeness = |[a, b]: &[&Mode; 2]| {
+            let shapes = [Mode::clone(a), Mode::clone(b)];
+            tracker.mac(&shapes, std::slice::from_ref(&crossing.mode)).concat().iter().sum::<f64>()
+        };
+        let likeness: Vec<f64> = ends.iter().map(likeness).collect();
+        let own = (0..ends.len()).max_by(|&i, &j| likeness[i].total_cmp(&likeness[j]));
+        if let Some(own) = own {
+            known[own].push((crossing.speed, &crossing.mode));
+        }
+    }
+    known.iter_mut().for_each(|list| list.sort_by(|a, b| a.0.total_cmp(&b.0)));
+    known
 }
 
 impl<T: Tangents> Tracker<'_, T> {

@@ -68,7 +68,7 @@ fn zero_frequency_shapes(mass: &SparseMatrix, stiffness: &SparseMatrix) -> Resul
     let layout = BandLayout::new(&[mass, stiffness]);
     let values = layout.scatter(stiffness).iter().zip(layout.scatter(mass)).map(|(k, m)| k + m).collect();
     let factors = layout.factor::<f64>(values).map_err(|pivot| format!("K + M is singular: {pivot:?}"))?;
-    let mut width = 8.min(size);
+    let mut width = 4.min(size);
     loop {
         // Start vectors with a component in every mode.
         let start = |j: usize| (0..size).map(move |k| ((1.0 + k as f64) * (1.0 + 0.37 * j as f64)).sin());

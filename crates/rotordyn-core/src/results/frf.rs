@@ -23,6 +23,18 @@ pub struct FrfResult {
     pub requested: Vec<usize>,
     /// Undamped modes, at which the FRFs are infinite, by frequency \[Hz\].
     pub undamped: Vec<UndampedPeak>,
+    /// The least damped of the modes up to the highest frequency, and of the lowest twelve; `None` if they are not known, as
+    /// in results from a file.
+    #[serde(skip)]
+    pub least_damped: Option<LeastDampedMode>,
+}
+
+/// The mode with the smallest damping ratio.
+#[derive(Clone, Debug)]
+pub struct LeastDampedMode {
+    pub label: String,
+    /// ζ.
+    pub damping_ratio: f64,
 }
 
 impl FrfResult {

@@ -261,6 +261,15 @@ impl Machine {
         speed_range(speeds).map_or(Ok(Vec::new()), |range| check_tables(&self.model, study, range))
     }
 
+    /// Speeds of the bearings' tables \[rad/s\], in order: between them the coefficients run without a turn.
+    pub(super) fn table_speeds(&self) -> Vec<f64> {
+        let mut speeds: Vec<f64> =
+            self.model.bearings.iter().flat_map(|site| site.bearing.table_speeds()).collect();
+        speeds.sort_by(f64::total_cmp);
+        speeds.dedup();
+        speeds
+    }
+
     /// Damped modes at every requested speed.
     ///
     /// # Errors
@@ -295,8 +304,10 @@ impl Machine {
             None => self.tangents(speed, follows),
         };
         let diagram = campbell::campbell(&self.assembly, &study.speeds, study.modes, &tangents)?;
-        let crossings = critical_speed::crossings(&self.assembly, &diagram, &study.orders, &tangents)?;
-        let thresholds = stability::thresholds(&self.assembly, &diagram, &tangents)?;
+        let nodes = if follows { self.table_speeds() } else { Vec::new() };
+        let crossings =
+            critical_speed::crossings(&self.assembly, &diagram, &study.orders, &tangents, &nodes)?;
+        let thresholds = stability::thresholds(&self.assembly, &diagram, &crossings.list, &tangents)?;
         Ok(CampbellResult { diagram, orders: self.order_lines(&study.orders), crossings, thresholds })
     }
 
@@ -311,9 +322,9 @@ impl Machine {
         self.check_tables("critical", &[0.0, study.max_speed])?;
         let (assembly, max_speed) = (&self.assembly, study.max_speed);
         let path = self.equilibrium_path(&[0.0, max_speed], EVALUATIONS_PER_SPEED * critical_speed::SPEEDS);
-        let tangents = |speed| self.tangents_on(path.as_ref(), speed);
+        let (tangents, nodes) = (|speed| self.tangents_on(path.as_ref(), speed), self.table_speeds());
         let crossings =
-            critical_speed::critical_speeds(assembly, [0.0, max_speed], &study.orders, &tangents)?;
+            critical_speed::critical_speeds(assembly, [0.0, max_speed], &study.orders, &tangents, &nodes)?;
         Ok(CriticalResult { max_speed, crossings })
     }
 

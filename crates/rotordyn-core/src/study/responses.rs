@@ -14,7 +14,8 @@ use crate::element::Anchor;
 use crate::model::study::{Excitation, FrfStudy, UnbalanceStudy};
 use crate::model::{Probe, Quantity};
 use crate::results::{
-    DiscOrbit, FrfResult, ResponsePeak, UnbalanceChannel, UnbalanceResult, UndampedPeak, is_rotation, unit_of,
+    DiscOrbit, FrfResult, LeastDampedMode, ResponsePeak, UnbalanceChannel, UnbalanceResult, UndampedPeak,
+    is_rotation, unit_of,
 };
 use rayon::prelude::*;
 use rotordyn_linalg::{Complex64, SparseRow};
@@ -40,6 +41,9 @@ impl Machine {
         let (f, q) = (&study.frequencies, study.quantity);
         let highest = f.iter().copied().fold(0.0, f64::max);
         let poles = if highest > 0.0 { frf_poles(&self.assembly, &system, highest)? } else { Vec::new() };
+        let least = poles.iter().min_by(|a, b| a.damping_ratio.total_cmp(&b.damping_ratio));
+        let least_damped =
+            least.map(|p| LeastDampedMode { label: p.label.clone(), damping_ratio: p.damping_ratio });
         let solver = FrfSolver::new(&self.assembly, &system, &excitations, &responses, q);
         let evaluate = |hz: &[f64]| match self.has_whirl_tables() {
             true => self.frf_at_whirl(study.speed, hz, [&excitations, &responses], q),
@@ -83,6 +87,7 @@ impl Machine {
             frf: Frf { frequencies: points, quantity: q, values },
             requested,
             undamped,
+            least_damped,
         })
     }
 
@@ -131,7 +136,7 @@ impl Machine {
             true => [lowest, highest],
             false => [highest * (1.0 - SINGLE_POINT_RANGE), highest * (1.0 + SINGLE_POINT_RANGE)],
         };
-        let poles = synchronous_poles(&self.assembly, range, &tangents)?;
+        let poles = synchronous_poles(&self.assembly, range, &tangents, &self.table_speeds())?;
         let shaft = ShaftSections::new(&self.model);
         let observe = |motion: UnbalanceMotion| self.observe(motion, &observed, &shaft);
         let path = self.equilibrium_path(&study.speeds, study.speeds.len());

@@ -8,28 +8,24 @@
 //! of undamped modes, which cannot decrease with speed; otherwise steps are halved until N changes in one direction
 //! only and no frequency turns towards the line within a step.
 
+use super::spectrum::{HEAVY_REACH, Spectrum, is_heavily_damped, takes_part};
 use super::{CriticalSpeed, CrossingList, Tangents, UncertainRange, refine, undamped};
 use crate::analysis::campbell::EXTRA_MODES;
 use crate::analysis::modal::{self, Eigenpair};
 use crate::analysis::mode_kind;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use rayon::prelude::*;
-use rotordyn_bearing::SiteTangent;
-use rotordyn_linalg::Complex64;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Modes with |λ| up to this multiple of the highest order line are computed: damping ratios up to 0.6.
 const REACH: f64 = 1.25;
-/// The same if a damping ratio above [`HEAVY_DAMPING`] occurs: damping ratios up to 0.94.
-const HEAVY_REACH: f64 = 3.0;
-const HEAVY_DAMPING: f64 = 0.3;
 /// A mode lies on an order line within this relative difference of frequencies.
 const ON_LINE: f64 = 1e-8;
-/// Relative distance of two eigenvalues from which each has a shape of its own.
-const LEAST_GAP: f64 = 1e-5;
 /// Least distance of a crossing from the next one and from the ends of its step, as a fraction of the step.
 const APART: f64 = 1e-5;
+/// Largest distance from an order line, relative to it, that may be round-off of a low mode.
+const ROUND_OFF: f64 = 1e-4;
 /// Largest number of halvings of a step in which N changes twice.
 const MAX_HALVINGS: usize = 6;
 /// Largest number of halvings of a step to separate its crossings, before each is bracketed.
@@ -38,44 +34,8 @@ const MAX_BRACKETINGS: usize = 80;
 /// Frequencies below this \[rad/s\] are rigid-body modes, see [`krylov`](rotordyn_linalg::krylov).
 const RIGID_BODY: f64 = 1e-3 * modal::SHIFT;
 
-/// Eigenvalues at one speed, by damped frequency, and labels of their modes. Without their shapes, which would be most of the
-/// memory of a search.
-#[derive(Clone, Debug)]
-pub(super) struct Spectrum {
-    speed: f64,
-    values: Vec<Complex64>,
-    labels: Vec<String>,
-}
-
-impl Spectrum {
-    pub fn new(speed: f64, modes: impl IntoIterator<Item = (Complex64, String)>) -> Self {
-        let mut modes: Vec<(Complex64, String)> = modes.into_iter().collect();
-        modes.sort_by(|a, b| a.0.im.total_cmp(&b.0.im));
-        let (values, labels) = modes.into_iter().unzip();
-        Self { speed, values, labels }
-    }
-
-    /// Number of modes below an order line.
-    fn below(&self, order: f64) -> usize {
-        self.values.partition_point(|value| value.im < order * self.speed)
-    }
-
-    /// The eigenvalue at an index, unless another one is so near that both have a shape in common.
-    fn isolated(&self, index: usize) -> Option<Complex64> {
-        let value = *self.values.get(index)?;
-        let near = |other: &Complex64| (other - value).norm() < LEAST_GAP * value.norm();
-        (self.values.iter().filter(|other| near(other)).count() == 1).then_some(value)
-    }
-
-    /// ω_d − n Ω of the mode at an index.
-    fn gap(&self, index: usize, order: f64) -> Option<f64> {
-        self.values.get(index).map(|value| value.im - order * self.speed)
-    }
-}
-
 /// Number of modes below every order line at one speed.
 struct AllBelow {
-    speed: f64,
     /// `None` at standstill.
     system: Option<LinearSystem>,
     counts: Vec<usize>,
@@ -93,6 +53,21 @@ pub(super) struct Search<'a, T> {
 /// Crossings in a step in which every index has one at most.
 type ByIndex = BTreeMap<usize, CriticalSpeed>;
 
+/// Crossings of a step, and where others could not be located.
+#[derive(Default)]
+struct Found {
+    list: Vec<CriticalSpeed>,
+    missing: Vec<UncertainRange>,
+}
+
+/// Where a frequency passes an order line.
+enum Passage {
+    /// At this speed, within a relative distance from the line.
+    Crossing(f64, f64),
+    /// It jumps over the line, as a mode below begins or ceases to take part.
+    Jump,
+}
+
 impl<'a, T: Tangents> Search<'a, T> {
     pub fn new(assembly: &'a Assembly, tangents: &'a T, orders: &[f64], limit: Option<usize>) -> Self {
         let highest_order = orders.iter().copied().fold(0.0, f64::max);
@@ -102,7 +77,15 @@ impl<'a, T: Tangents> Search<'a, T> {
     /// Eigenvalues at increasing speeds.
     pub fn spectra(&self, speeds: &[f64]) -> Result<Vec<Spectrum>, PhysicsError> {
         let Some(&top) = speeds.last() else { return Ok(Vec::new()) };
-        let highest = self.spectrum(top, 8)?;
+        let expected = match self.limit {
+            Some(_) => 0,
+            None => {
+                let system = self.system(top)?;
+                // And the one beyond.
+                modal::undamped_modes_below(&system, REACH * self.highest_order * top) + 1
+            }
+        };
+        let highest = self.spectrum(top, expected.max(8))?;
         let guess = |speed: f64| {
             let reach = REACH * self.highest_order * speed;
             highest.values.iter().filter(|value| value.norm() < reach).count() + 2
@@ -114,8 +97,29 @@ impl<'a, T: Tangents> Search<'a, T> {
         Ok(spectra)
     }
 
+    /// These spectra and those at further speeds between them, in order.
+    pub fn with_speeds(
+        &self,
+        mut spectra: Vec<Spectrum>,
+        further: &[f64],
+    ) -> Result<Vec<Spectrum>, PhysicsError> {
+        let (Some(first), Some(last)) = (spectra.first(), spectra.last()) else { return Ok(spectra) };
+        let inside = |speed: &f64| *speed > first.speed && *speed < last.speed;
+        let is_new = |speed: &f64| spectra.iter().all(|at| at.speed != *speed);
+        let speeds: Vec<f64> = further.iter().copied().filter(|s| inside(s) && is_new(s)).collect();
+        let count = spectra.iter().map(|at| at.values.len()).max().unwrap_or(0) + 1;
+        let more: Vec<Spectrum> = speeds
+            .par_iter()
+            .map(|&speed| self.spectrum(speed, count))
+            .collect::<Result<_, PhysicsError>>()?;
+        spectra.extend(more);
+        spectra.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        spectra.dedup_by(|a, b| a.speed == b.speed);
+        Ok(spectra)
+    }
+
     /// Eigenvalues at a speed: all below the highest order line and one above it, or as many as are searched.
-    fn spectrum(&self, speed: f64, guess: usize) -> Result<Spectrum, PhysicsError> {
+    pub fn spectrum(&self, speed: f64, guess: usize) -> Result<Spectrum, PhysicsError> {
         if speed <= 0.0 {
             // No order line crosses at standstill.
             return Ok(Spectrum::new(speed, []));
@@ -137,7 +141,7 @@ impl<'a, T: Tangents> Search<'a, T> {
     /// All eigenpairs within the reach of the search.
     fn all_pairs(&self, system: &LinearSystem, count: usize) -> Result<Vec<Eigenpair>, PhysicsError> {
         let reach = |pairs: &[Eigenpair]| {
-            let heavy = pairs.iter().any(|(value, _)| -value.re > HEAVY_DAMPING * value.norm());
+            let heavy = pairs.iter().any(|(value, _)| is_heavily_damped(*value));
             let factor = if heavy { HEAVY_REACH } else { REACH };
             factor * self.highest_order * system.speed
         };
@@ -146,10 +150,20 @@ impl<'a, T: Tangents> Search<'a, T> {
 
     /// As many eigenpairs as are searched.
     fn pairs(&self, system: &LinearSystem, guess: usize) -> Result<Vec<Eigenpair>, PhysicsError> {
-        match self.limit {
-            Some(limit) => modal::eigenpairs(self.assembly, system, limit + EXTRA_MODES),
-            None => self.all_pairs(system, guess),
-        }
+        let Some(limit) = self.limit else { return self.all_pairs(system, guess) };
+        let count = limit + EXTRA_MODES;
+        // Up to where no mode is missing below those that are searched, or below the lines.
+        let highest_line = REACH * self.highest_order * system.speed;
+        let reach = |pairs: &[Eigenpair]| {
+            if !pairs.iter().any(|(value, _)| is_heavily_damped(*value)) {
+                return 0.0;
+            }
+            let mut lowest: Vec<f64> =
+                pairs.iter().map(|pair| pair.0).filter(|v| takes_part(*v)).map(|v| v.im).collect();
+            lowest.sort_by(f64::total_cmp);
+            HEAVY_REACH * lowest.get(count - 1).map_or(highest_line, |last| last.min(highest_line))
+        };
+        modal::eigenpairs_up_to(self.assembly, system, count, reach)
     }
 
     /// The eigenpairs at these indices of a spectrum, by damped frequency.
@@ -163,6 +177,7 @@ impl<'a, T: Tangents> Search<'a, T> {
             return Ok(pairs);
         }
         let mut pairs = self.pairs(&system, of.values.len().max(2) - 1)?;
+        pairs.retain(|(value, _)| takes_part(*value));
         pairs.sort_by(|a, b| a.0.im.total_cmp(&b.0.im));
         Ok(pairs.into_iter().skip(indices.start).take(indices.len()).collect())
     }
@@ -175,23 +190,25 @@ impl<'a, T: Tangents> Search<'a, T> {
     /// All crossings between the first and the last of the spectra.
     pub fn run(&self, spectra: Vec<Spectrum>, orders: &[f64]) -> Result<CrossingList, PhysicsError> {
         let spectra: Vec<Spectrum> = spectra.into_iter().filter(|s| s.speed >= 0.0).collect();
-        let (Some(first), Some(last)) = (spectra.first(), spectra.last()) else {
-            return Ok(CrossingList::default());
-        };
-        let (first, top) = (first.speed, self.all_below(last.speed, orders)?);
+        let Some(last) = spectra.last() else { return Ok(CrossingList::default()) };
+        let top = self.all_below(last.speed, orders)?;
+        let speeds: Vec<f64> = spectra.iter().map(|at| at.speed).collect();
         let mut out = CrossingList { omitted: self.omitted(&top, orders), ..CrossingList::default() };
-        let complete = self.number_is_monotonic(orders, first, &top)?;
+        let complete = self.number_is_monotonic(orders, &speeds, &top)?;
         let spectra = match complete {
             true => spectra,
             false => self.halve_steps(spectra, orders, &mut out.uncertain)?,
         };
         let steps: Vec<(&[Spectrum], f64)> =
             orders.iter().flat_map(|&order| spectra.windows(2).map(move |step| (step, order))).collect();
-        let found: Vec<Vec<CriticalSpeed>> = steps
+        let found: Vec<Found> = steps
             .par_iter()
             .map(|(step, order)| self.crossings(&step[0], &step[1], *order, MAX_BISECTIONS))
             .collect::<Result<_, PhysicsError>>()?;
-        out.list = found.concat();
+        for Found { list, missing } in found {
+            out.list.extend(list);
+            out.uncertain.extend(missing);
+        }
         out.list.sort_by(|a, b| a.speed.total_cmp(&b.speed).then(a.order.total_cmp(&b.order)));
         Ok(out)
     }
@@ -199,13 +216,13 @@ impl<'a, T: Tangents> Search<'a, T> {
     /// The number of all modes below every order line at a speed, whatever the limit of the search.
     fn all_below(&self, speed: f64, orders: &[f64]) -> Result<AllBelow, PhysicsError> {
         if speed <= 0.0 {
-            return Ok(AllBelow { speed, system: None, counts: vec![0; orders.len()] });
+            return Ok(AllBelow { system: None, counts: vec![0; orders.len()] });
         }
         let system = self.system(speed)?;
         let pairs = self.all_pairs(&system, self.limit.unwrap_or(0) + 8)?;
         let all = Spectrum::new(speed, pairs.into_iter().map(|(value, _)| (value, String::new())));
         let counts = orders.iter().map(|&order| all.below(order)).collect();
-        Ok(AllBelow { speed, system: Some(system), counts })
+        Ok(AllBelow { system: Some(system), counts })
     }
 
     /// Modes below the order lines beyond the limit of the search.
@@ -216,14 +233,21 @@ impl<'a, T: Tangents> Search<'a, T> {
         beyond.filter(|(_, count)| *count > 0).collect()
     }
 
-    /// Whether the number of modes below every order line only increases: constant bearings of symmetric stiffness, and
-    /// at both ends as many modes below the lines as without damping.
-    fn number_is_monotonic(&self, orders: &[f64], first: f64, top: &AllBelow) -> Result<bool, PhysicsError> {
-        let speeds = [first, 0.5 * (first + top.speed), top.speed];
-        let tangents: Vec<Vec<SiteTangent>> =
-            speeds.into_iter().map(self.tangents).collect::<Result<_, PhysicsError>>()?;
-        if tangents[0] != tangents[1] || tangents[1] != tangents[2] {
-            return Ok(false);
+    /// Whether the number of modes below every order line only increases: bearings of symmetric stiffness that are the same at
+    /// all `speeds`, and at both ends as many modes below the lines as without damping.
+    fn number_is_monotonic(
+        &self,
+        orders: &[f64],
+        speeds: &[f64],
+        top: &AllBelow,
+    ) -> Result<bool, PhysicsError> {
+        let Some(&first) = speeds.first() else { return Ok(true) };
+        let at_first = (self.tangents)(first)?;
+        // The other end first, which differs most often.
+        for &speed in speeds.iter().skip(1).rev() {
+            if (self.tangents)(speed)? != at_first {
+                return Ok(false);
+            }
         }
         let as_undamped = |at: &AllBelow| {
             let Some(system) = &at.system else { return true };
@@ -305,13 +329,7 @@ impl<'a, T: Tangents> Search<'a, T> {
     }
 
     /// Crossings between two neighbouring speeds: one for every index between the numbers of modes below the line.
-    fn crossings(
-        &self,
-        a: &Spectrum,
-        b: &Spectrum,
-        order: f64,
-        depth: usize,
-    ) -> Result<Vec<CriticalSpeed>, PhysicsError> {
+    fn crossings(&self, a: &Spectrum, b: &Spectrum, order: f64, depth: usize) -> Result<Found, PhysicsError> {
         let (na, nb) = (self.below(a, order), self.below(b, order));
         let indices = na.min(nb)..na.max(nb);
         // The end at which the modes of these indices lie below the line, so that both are known there.
@@ -328,7 +346,7 @@ impl<'a, T: Tangents> Search<'a, T> {
             roots.push(refine::crossing(machine, order, (end.speed, start), trial, ends)?);
         }
         if let Some(found) = self.separate_crossings([a, b], order, indices.clone(), &roots) {
-            return Ok(found);
+            return Ok(Found { list: found, ..Found::default() });
         }
         let mut found = ByIndex::new();
         for (index, root) in indices.clone().zip(roots) {
@@ -341,21 +359,29 @@ impl<'a, T: Tangents> Search<'a, T> {
         drop(starts);
         found.retain(|index, _| indices.contains(index));
         if depth == 0 {
+            let mut missing = Vec::new();
             for index in indices.clone() {
-                if !found.contains_key(&index)
-                    && let Some(speed) = self.bracketed(a, b, index, order)?
-                {
-                    self.modes_near_line(speed, order, 10.0 * ON_LINE, end.values.len(), &mut found)?;
+                if found.contains_key(&index) {
+                    continue;
+                }
+                if let Passage::Crossing(speed, distance) = self.passage(a, b, index, order)? {
+                    self.modes_near_line(speed, order, distance, end.values.len(), &mut found)?;
+                    if !found.contains_key(&index) {
+                        missing.push(UncertainRange { order, from: a.speed, to: b.speed });
+                    }
                 }
             }
             found.retain(|index, _| indices.contains(index));
+            return Ok(Found { list: found.into_values().collect(), missing });
         }
-        if found.len() == indices.len() || depth == 0 {
-            return Ok(found.into_values().collect());
+        if found.len() == indices.len() {
+            return Ok(Found { list: found.into_values().collect(), ..Found::default() });
         }
         let middle = self.spectrum(0.5 * (a.speed + b.speed), end.values.len().max(2) - 1)?;
         let mut found = self.crossings(a, &middle, order, depth - 1)?;
-        found.extend(self.crossings(&middle, b, order, depth - 1)?);
+        let right = self.crossings(&middle, b, order, depth - 1)?;
+        found.list.extend(right.list);
+        found.missing.extend(right.missing);
         Ok(found)
     }
 
@@ -405,15 +431,8 @@ impl<'a, T: Tangents> Search<'a, T> {
         roots.into_iter().zip(&labels[indices]).map(crossing).collect()
     }
 
-    /// The speed at which the frequency at an index crosses the line, from the spectra alone: false position with
-    /// bisection. `None` where it jumps over the line, as a mode below becomes oscillatory or overdamped.
-    fn bracketed(
-        &self,
-        a: &Spectrum,
-        b: &Spectrum,
-        index: usize,
-        order: f64,
-    ) -> Result<Option<f64>, PhysicsError> {
+    /// Where the frequency at an index passes the line, from the spectra alone: false position with bisection.
+    fn passage(&self, a: &Spectrum, b: &Spectrum, index: usize, order: f64) -> Result<Passage, PhysicsError> {
         let count = a.values.len().max(b.values.len());
         let mut ends = [a, b].map(|end| (end.speed, end.gap(index, order)));
         for step in 0..MAX_BRACKETINGS {
@@ -424,7 +443,7 @@ impl<'a, T: Tangents> Search<'a, T> {
             };
             let gap = self.spectrum(speed, count.max(2) - 1)?.gap(index, order);
             if gap.is_some_and(|gap| gap.abs() < 0.1 * ON_LINE * order * speed) {
-                return Ok(Some(speed));
+                return Ok(Passage::Crossing(speed, 10.0 * ON_LINE));
             }
             if right - left < 1e-12 * right {
                 break;
@@ -433,7 +452,14 @@ impl<'a, T: Tangents> Search<'a, T> {
             let above = |gap: Option<f64>| gap.is_none_or(|gap| gap > 0.0);
             ends[usize::from(above(gap) != above(ga))] = (speed, gap);
         }
-        Ok(None)
+        let [(left, Some(ga)), (right, Some(gb))] = ends else { return Ok(Passage::Jump) };
+        let (speed, gap) = if ga.abs() < gb.abs() { (left, ga) } else { (right, gb) };
+        let [distance, height] = [gap, ga - gb].map(|gap| gap.abs() / (order * right));
+        // A low mode beside stiff elements may have that much round-off.
+        Ok(match height <= ROUND_OFF {
+            true => Passage::Crossing(speed, 2.0 * distance.max(height)),
+            false => Passage::Jump,
+        })
     }
 
     /// Adds the modes within a relative distance of an order line at a speed, by their indices.
@@ -448,6 +474,7 @@ impl<'a, T: Tangents> Search<'a, T> {
         let system = self.system(speed)?;
         let pairs = self.pairs(&system, count.max(2) - 1)?;
         let mut modes = modal::modes_of(self.assembly, &system, pairs);
+        modes.retain(|mode| takes_part(mode.eigenvalue));
         modes.sort_by(|a, b| a.omega().total_cmp(&b.omega()));
         let line = order * speed;
         for (index, mode) in modes.into_iter().enumerate() {

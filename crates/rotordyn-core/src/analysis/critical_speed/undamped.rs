@@ -6,7 +6,6 @@ use crate::analysis::mode::inner;
 use crate::analysis::mode_kind;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use nalgebra::{Cholesky, DMatrix};
-use rotordyn_linalg::inertia::negative_eigenvalues;
 use rotordyn_linalg::{Complex64, SparseMatrix, eigen};
 
 /// Undamped critical speeds of order n up to a speed, solved directly: K q = Ω² (n² M − j n G) q.
@@ -81,9 +80,6 @@ pub(super) fn undamped_modes_below(
     lowest: f64,
 ) -> usize {
     let undamped = modal::undamped(assembly, system);
-    let count = |omega: f64| {
-        let real = SparseMatrix::sum(&[(1.0, &undamped.stiffness), (-omega * omega, &undamped.mass)]);
-        negative_eigenvalues(&real, &SparseMatrix::sum(&[(omega, &undamped.damping)]))
-    };
+    let count = |omega| modal::undamped_modes_below(&undamped, omega);
     count(order * system.speed).saturating_sub(count(lowest))
 }

@@ -1,5 +1,7 @@
 //! Modes: unstable, lost or uncertain.
 
+use crate::analysis::critical_speed::CriticalSpeed;
+use crate::analysis::stability::UNSTABLE;
 use crate::analysis::table_range::speed_range;
 use crate::analysis::{Mode, ModeKind, modal};
 use crate::assembly::PhysicsError;
@@ -8,9 +10,6 @@ use crate::results::CriticalResult;
 use crate::study::{Machine, Results};
 use crate::warning::{Code, Warning};
 use rotordyn_linalg::Complex64;
-
-/// Damping ratio below which a mode is unstable, not undamped to round-off.
-const UNSTABLE: f64 = -1e-9;
 
 /// Elements of the shaft in half a wave of a bending mode, below which its frequency is wrong by more than about 1 %.
 const ELEMENTS_PER_HALF_WAVE: usize = 2;
@@ -22,10 +21,12 @@ impl Machine {
     pub(super) fn unstable_mode_warnings(&self, results: &Results) -> Result<Vec<Warning>, PhysicsError> {
         let mut found = Vec::new();
         let studies = &self.model.studies;
-        if results.frf.is_some()
-            && let Some(study) = &studies.frf
-        {
-            found.extend(self.unstable_at("study.frf", "frequency responses do not exist", [study.speed])?);
+        if let (Some(frf), Some(study)) = (&results.frf, &studies.frf) {
+            let (item, consequence) = ("study.frf", "frequency responses do not exist");
+            found.extend(match &frf.least_damped {
+                Some(mode) => unstable(item, consequence, frf.speed, &mode.label, mode.damping_ratio),
+                None => self.unstable_at(item, consequence, [study.speed])?,
+            });
         }
         if results.unbalance.is_some()
             && let Some([low, high]) = studies.unbalance.as_ref().and_then(|study| speed_range(&study.speeds))
@@ -38,12 +39,11 @@ impl Machine {
             )?);
         }
         if let Some(critical) = &results.critical {
-            let speeds = [0.5 * critical.max_speed, critical.max_speed];
-            found.extend(self.unstable_at(
-                "study.critical",
-                "critical speeds above it are not reached",
-                speeds,
-            )?);
+            let (item, speeds) = ("study.critical", [0.5 * critical.max_speed, critical.max_speed]);
+            let at_speeds = self.unstable_at(item, "critical speeds above it are not reached", speeds)?;
+            // Stable there, but not in between.
+            let first = || unstable_crossings(&critical.crossings.list).next();
+            found.extend(at_speeds.or_else(|| first().map(|crossing| unstable_crossing(item, crossing))));
         }
         Ok(found)
     }
@@ -58,11 +58,9 @@ impl Machine {
         for speed in speeds {
             let modes = modal::modes(&self.assembly, &self.linear_system(speed)?, MODES)?;
             let least = modes.iter().min_by(|a, b| a.zeta().total_cmp(&b.zeta()));
-            if let Some(mode) = least.filter(|mode| mode.zeta() < UNSTABLE) {
-                let (rpm, zeta) = (speed * TO_RPM, 100.0 * mode.zeta());
-                let text =
-                    format!("{} is unstable at {rpm:.0} rpm (zeta = {zeta:.3} %): {consequence}", mode.label);
-                return Ok(Some(Warning::new(Code::UnstableMode, item, text)));
+            let found = least.and_then(|mode| unstable(item, consequence, speed, &mode.label, mode.zeta()));
+            if found.is_some() {
+                return Ok(found);
             }
         }
         Ok(None)
@@ -95,6 +93,27 @@ impl Machine {
         let first = at_rest.filter_map(|branch| branch.modes.first()?.as_ref());
         modal.or_else(|| self.mesh_limit("study.campbell", first)).into_iter().collect()
     }
+}
+
+/// The warning of a mode at a speed \[rad/s\] with the damping ratio ζ, if it is unstable.
+fn unstable(item: &str, consequence: &str, speed: f64, label: &str, zeta: f64) -> Option<Warning> {
+    (zeta < UNSTABLE).then(|| {
+        let (rpm, zeta) = (speed * TO_RPM, 100.0 * zeta);
+        let text = format!("{label} is unstable at {rpm:.0} rpm (zeta = {zeta:.3} %): {consequence}");
+        Warning::new(Code::UnstableMode, item, text)
+    })
+}
+
+/// Crossings of unstable modes with order lines.
+fn unstable_crossings(list: &[CriticalSpeed]) -> impl Iterator<Item = &CriticalSpeed> {
+    list.iter().filter(|crossing| crossing.mode.zeta() < UNSTABLE)
+}
+
+fn unstable_crossing(item: &str, CriticalSpeed { speed, order, mode }: &CriticalSpeed) -> Warning {
+    let (label, rpm, zeta) = (&mode.label, speed * TO_RPM, 100.0 * mode.zeta());
+    let text =
+        format!("{label} is unstable where it crosses order {order}, at {rpm:.0} rpm: zeta = {zeta:.3} %");
+    Warning::new(Code::UnstableMode, item, text)
 }
 
 /// Number of elements between two successive sign changes of a shaft's deflection, the smallest; `None` with fewer than
@@ -135,10 +154,19 @@ pub(super) fn warnings(results: &Results) -> Vec<Warning> {
             let first = at.find(|(_, mode)| mode.as_ref().is_some_and(|mode| mode.zeta() < UNSTABLE))?;
             Some((&branch.label, *first.0))
         });
-        found.extend(unstable.map(|(label, speed)| {
+        let unstable: Vec<(&String, f64)> = unstable.collect();
+        found.extend(unstable.iter().map(|(label, speed)| {
             let text = format!("{label} is unstable from {:.0} rpm on", speed * TO_RPM);
             Warning::new(Code::UnstableMode, "study.campbell", text)
         }));
+        // Stable at the speeds of the diagram, but not in between.
+        let mut named: Vec<&String> = unstable.into_iter().map(|(label, _)| label).collect();
+        for crossing in results.campbell.iter().flat_map(|found| unstable_crossings(&found.crossings.list)) {
+            if !named.contains(&&crossing.mode.label) {
+                named.push(&crossing.mode.label);
+                found.push(unstable_crossing("study.campbell", crossing));
+            }
+        }
     }
     for at in &results.modal {
         for mode in at.modes.iter().filter(|mode| mode.zeta() < UNSTABLE) {
@@ -153,8 +181,8 @@ pub(super) fn warnings(results: &Results) -> Vec<Warning> {
     for (item, list) in of_campbell.into_iter().chain(of_critical) {
         found.extend(list.uncertain.iter().map(|range| {
             let text = format!(
-                "crossings of order {} between {:.1} and {:.1} rpm may be missing: the bearings change faster with speed \
-                 than the search can follow",
+                "crossings of order {} between {:.1} and {:.1} rpm may be missing: the modes change faster with speed than \
+                 the search can follow",
                 range.order,
                 range.from * TO_RPM,
                 range.to * TO_RPM
