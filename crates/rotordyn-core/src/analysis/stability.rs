@@ -75,12 +75,12 @@ fn between<'a>(
     let tells = |mode: &Mode| ends.iter().flatten().any(|end| is_unstable(end) != is_unstable(mode));
     let inside = |crossing: &&CriticalSpeed| crossing.speed > range[0] && crossing.speed < range[1];
     for crossing in crossings.iter().filter(inside).filter(|crossing| tells(&crossing.mode)) {
-        let likeness = |[a, b]: &[&Mode; 2]| {
+        let correlation = |[a, b]: &[&Mode; 2]| {
             let shapes = [Mode::clone(a), Mode::clone(b)];
             tracker.mac(&shapes, std::slice::from_ref(&crossing.mode)).concat().iter().sum::<f64>()
         };
-        let likeness: Vec<f64> = ends.iter().map(likeness).collect();
-        let own = (0..ends.len()).max_by(|&i, &j| likeness[i].total_cmp(&likeness[j]));
+        let correlation: Vec<f64> = ends.iter().map(correlation).collect();
+        let own = (0..ends.len()).max_by(|&i, &j| correlation[i].total_cmp(&correlation[j]));
         if let Some(own) = own {
             known[own].push((crossing.speed, &crossing.mode));
         }
