@@ -1,5 +1,6 @@
 //! Envelope spectra of many bands of one record, each from an envelope at the lowest rate that holds it.
 
+use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use realfft::RealFftPlanner;
@@ -11,6 +12,9 @@ use super::spectrum::Spectrum;
 
 /// Equivalent noise bandwidth of a Hann window in bins.
 const HANN_NOISE_BANDWIDTH: f64 = 1.5;
+
+/// Power of lines over that of all else in a band below which their beats are lost in it.
+const LEAST_TONES: f64 = 1e-4;
 
 /// The spectrum of a record, from which bands are demodulated.
 pub(crate) struct Demodulator {
@@ -45,28 +49,71 @@ impl Demodulator {
     /// Shifting the band to zero frequency leaves |z| as it is, so the inverse transform needs only the
     /// band's bins; it has the record's duration, so that envelope spectra have the record's bins.
     fn envelope(&self, band: (f64, f64)) -> (Vec<f64>, f64) {
+        let bins = self.bins_of(band);
+        let mut data = vec![Complex::ZERO; self.length(&bins)];
+        data[..bins.len()].copy_from_slice(&self.bins[bins]);
+        self.inverse(data.len()).process(&mut data);
+        (data.iter().map(|z| z.norm_sqr().sqrt()).collect(), self.rate(data.len()))
+    }
+
+    /// Bins of a band.
+    fn bins_of(&self, band: (f64, f64)) -> Range<usize> {
         let step = self.sample_rate / self.samples as f64;
         let bin_at = |f: f64| ((f / step * (1.0 - 1e-12)).ceil() as usize).min(self.bins.len());
         let (first, mut end) = (bin_at(band.0), bin_at(band.1));
         if band.1 >= 0.5 * self.sample_rate * (1.0 - 1e-12) {
             end = self.bins.len();
         }
-        let width = end.saturating_sub(first).max(1);
-        let length = smooth_length(2 * width).min(self.samples.max(width));
-        let mut data = vec![Complex::ZERO; length];
-        for (value, bin) in data.iter_mut().zip(&self.bins[first.min(end)..end]) {
-            *value = *bin;
-        }
-        self.inverse(length).process(&mut data);
-        let rate = length as f64 * self.sample_rate / self.samples as f64;
-        (data.iter().map(|z| z.norm_sqr().sqrt()).collect(), rate)
+        first.min(end)..end
+    }
+
+    /// Length of the envelope of a band's bins.
+    fn length(&self, bins: &Range<usize>) -> usize {
+        let width = bins.len().max(1);
+        smooth_length(2 * width).min(self.samples.max(width))
+    }
+
+    /// Sampling rate of an envelope of that length, which has the record's duration.
+    fn rate(&self, length: usize) -> f64 {
+        length as f64 * self.sample_rate / self.samples as f64
     }
 
     /// Amplitude spectrum (Hann, peak) of the band's envelope minus its mean, up to a frequency \[Hz\].
     ///
     /// The window is applied to the bins: X_k/2 − (X_{k−1} + X_{k+1})/4.
     pub fn envelope_spectrum(&self, band: (f64, f64), end: f64) -> Spectrum {
-        let (mut values, rate) = self.envelope(band);
+        let (values, rate) = self.envelope(band);
+        self.deviation_spectrum(values, rate, end)
+    }
+
+    /// Envelope spectrum of a band whose lines in some bins (`tones`) are replaced by their mean power: amplitude spectrum
+    /// of √(|z|² + p), z the band's analytic signal without them, p the mean of their |z|², up to a frequency \[Hz\].
+    ///
+    /// Beats of these lines, with each other and with others, are missing in it; modulation of all else is not weaker than
+    /// in [`Self::envelope_spectrum`]. `None` if the band has none of them or next to no power in them.
+    pub fn spectrum_without(&self, tones: &[Range<usize>], band: (f64, f64), end: f64) -> Option<Spectrum> {
+        let bins = self.bins_of(band);
+        let mut data = vec![Complex::ZERO; self.length(&bins)];
+        data[..bins.len()].copy_from_slice(&self.bins[bins.clone()]);
+        let mut power = 0.0;
+        for tone in tones {
+            let inside = tone.start.max(bins.start)..tone.end.min(bins.end);
+            for k in inside {
+                power += data[k - bins.start].norm_sqr();
+                data[k - bins.start] = Complex::ZERO;
+            }
+        }
+        let rest = data.iter().map(Complex::norm_sqr).sum::<f64>();
+        if power <= LEAST_TONES * rest {
+            return None;
+        }
+        self.inverse(data.len()).process(&mut data);
+        let envelope = data.iter().map(|z| (z.norm_sqr() + power).sqrt()).collect();
+        Some(self.deviation_spectrum(envelope, self.rate(data.len()), end))
+    }
+
+    /// Amplitude spectrum (Hann, peak) of values minus their mean, up to a frequency \[Hz\].
+    fn deviation_spectrum(&self, mut values: Vec<f64>, rate: f64, end: f64) -> Spectrum {
         let length = values.len();
         let mean = values.iter().sum::<f64>() / length as f64;
         values.iter_mut().for_each(|e| *e -= mean);

@@ -9,7 +9,7 @@ use super::demodulator::Demodulator;
 use super::envelope::{analytic_signal, band_analytic_signal};
 use super::error::{check_length, check_rate, check_record, check_same_length};
 use super::filter_bank::{BankLevel, max_depth};
-use super::grading::{BandGrading, Finding, GradedDiagnosis};
+use super::grading::{BandGrading, Finding, GradedDiagnosis, machine_tones};
 use super::kurtogram::{BandChoice, Kurtogram, fast_kurtogram};
 use super::resample::{AngleResampler, SAMPLES_PER_ORDER};
 use super::spectrum::{Level, Spectrum, amplitude_spectrum};
@@ -31,6 +31,8 @@ pub enum BandRule {
     Lines,
 }
 
+/// Frequency up to which lines of the mains are looked for \[Hz\].
+const HIGHEST_TONE: f64 = 1100.0;
 /// 10/ln 10: evidence, a power ratio, in dB.
 const DB_PER_NEPER_OF_EVIDENCE: f64 = 4.342944819032518;
 
@@ -89,19 +91,29 @@ pub fn diagnose(
     let by_width = (0.5 * sample_rate / (2.5 * highest * fastest)).log2().floor();
     let depth = (by_width.max(0.0) as usize).min(max_depth(record.len()));
     let half = 0.5 * sample_rate;
+    let demodulator = Demodulator::new(record, sample_rate);
+    let tones = match rotation {
+        ShaftRotation::ConstantSpeed => {
+            let spectrum = amplitude_spectrum(record, sample_rate, WindowKind::Hann, Level::Peak)?;
+            machine_tones(&spectrum.up_to(HIGHEST_TONE.max(31.0 * rates.shaft)), rates.shaft)
+        }
+        // Lines of the mains smear over the shaft's angle.
+        ShaftRotation::Angle(_) => Vec::new(),
+    };
+    let end = BandGrading::needed_range(rates, settings);
+    let without_tones = |band: (f64, f64)| demodulator.spectrum_without(&tones, band, end);
     let kurtogram = match rule {
         BandRule::Given(..) | BandRule::Whole => None,
         _ if depth == 0 => None,
         BandRule::Kurtosis => Some(fast_kurtogram(record, sample_rate, depth)?),
         BandRule::Lines => {
-            let demodulator = Demodulator::new(record, sample_rate);
-            let end = BandGrading::needed_range(rates, settings);
             let score = |band: (f64, f64)| {
                 let spectrum = match rotation {
                     ShaftRotation::ConstantSpeed => demodulator.envelope_spectrum(band, end),
                     ShaftRotation::Angle(_) => clock.spectrum(&envelope(record, sample_rate, band)?)?,
                 };
-                let found = BandGrading::new(&spectrum, rates, settings, clock.hz_per_unit());
+                let unit = clock.hz_per_unit();
+                let found = BandGrading::new(&spectrum, rates, settings, unit, without_tones(band).as_ref());
                 Ok(DB_PER_NEPER_OF_EVIDENCE * found.score())
             };
             Some(Kurtogram { levels: score_bank(depth, half, score)?, max_frequency: half })
@@ -118,7 +130,8 @@ pub fn diagnose(
         let envelope = envelope(record, sample_rate, band)?;
         let spectrum = clock.spectrum(&envelope)?;
         let squared = clock.spectrum(&envelope.iter().map(|e| e * e).collect::<Vec<_>>())?;
-        let grading = BandGrading::new(&spectrum, rates, settings, clock.hz_per_unit());
+        let unit = clock.hz_per_unit();
+        let grading = BandGrading::new(&spectrum, rates, settings, unit, without_tones(band).as_ref());
         let graded = grading.diagnosis(&squared, rates, chosen);
         Ok((spectrum, graded))
     };

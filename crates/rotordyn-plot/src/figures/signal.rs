@@ -285,7 +285,7 @@ fn mark_strong_lines(panel: &mut CursorPanel, found: &EnvelopeResult, divisor: f
         let group = match line.explanation {
             Explanation::Bearing(part) => cursor_group(part),
             Explanation::Shaft(_) => 0,
-            Explanation::Mains | Explanation::Periodic(_) => CURSOR_GROUPS.len(),
+            Explanation::Mains | Explanation::Beat | Explanation::Periodic(_) => CURSOR_GROUPS.len(),
             Explanation::Unexplained => CURSOR_GROUPS.len() + 1,
         };
         let x = line.frequency / divisor;

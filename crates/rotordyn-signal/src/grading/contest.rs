@@ -5,6 +5,7 @@ use super::features::{Contenders, features};
 use super::grade::{FEATURES, Features};
 use super::line_spectrum::{KnownLines, LinePeak, LineSpectrum};
 use super::part_fit::{FittedLine, PRESENT, PartFit};
+use super::rival_kind::RivalKind;
 use super::rivals::{Rival, find_rivals};
 
 /// Amplitude ratio from which a neighbouring line dominates another on its skirt.
@@ -16,10 +17,18 @@ const WITHOUT_SIDE_BANDS: f64 = 0.5;
 
 /// Rank that a cage without further harmonics loses among the bands.
 const CAGE_WITHOUT_HARMONICS: f64 = 3.0;
-/// Harmonics of FTF among the first eight that make a cage: a ball's load modulation gives up to five.
-const CAGE_HARMONICS: usize = 6;
 /// Evidence of a line that calls for an explanation.
 const COINCIDENCE_EVIDENCE: f64 = 30.0;
+
+/// Evidence of a harmonic of a ball, and its amplitude over that of a multiple of FTF below, that tell it from a cage.
+const FULL_LINE: f64 = 12.0;
+const RISE: f64 = 1.6;
+
+/// Share of FTF within which a second family is that of the cage, whose speed wanders.
+const CAGE_WANDER: f64 = 0.013;
+
+/// Orders beside a line of an inner race that its side bands do not reach with its own height.
+const MODULATED_ORDERS: f64 = 3.0;
 
 /// ln(1 + evidence) above which bands do not differ.
 const MOST: f64 = 12.0;
@@ -44,9 +53,10 @@ pub(super) fn contest(
     hz_per_unit: Option<f64>,
 ) -> Contest {
     let step = spectrum.step;
-    let known = KnownLines { shaft: rates.shaft, hz_per_unit, step };
+    let known = &spectrum.known;
     let mut fits = BearingPart::ALL.map(|part| PartFit::new(spectrum, part, rates, settings));
     let cage = fits[BearingPart::Cage as usize].clone();
+    let rises = rises_at_ball(&fits[BearingPart::Ball as usize], &cage, spectrum);
     let rivals: Vec<Vec<Rival>> = fits
         .iter_mut()
         .map(|fit| {
@@ -60,7 +70,8 @@ pub(super) fn contest(
                             fit.explains(f, rates.shaft, step)
                         })
                     }) && !is_dominated(fit, line, spectrum, rates)
-                        && !is_cage_harmonic(fit, line, &cage, spectrum, rates.shaft)
+                        && !(is_cage_harmonic(fit, line, &cage, spectrum, rates.shaft)
+                            && !(rises && fit.part == BearingPart::Ball))
                         && (fit.part == BearingPart::Cage || !known.contains(line.frequency))
                 })
                 .collect();
@@ -72,7 +83,7 @@ pub(super) fn contest(
     let ball = own[BearingPart::Ball as usize];
     let strength = fits.each_ref().map(|fit| match fit.part {
         // FTF is the modulation of the ball's impacts: it counts for the ball, not against it.
-        BearingPart::Ball if ball > BALL_EVIDENCE && side_bands(fit, 4) > 0 => {
+        BearingPart::Ball if ball > BALL_EVIDENCE && side_bands(fit, 4) > 0 && (rises || !cage.is_comb()) => {
             ball + own[BearingPart::Cage as usize]
         }
         BearingPart::Ball => WITHOUT_SIDE_BANDS * ball,
@@ -93,11 +104,11 @@ pub(super) fn contest(
         .fold(0.0, f64::max);
     let ambiguity =
         others().filter(|k| fits[*k].part != BearingPart::Cage).map(|k| own[k]).fold(0.0, f64::max);
-    let unresolved = unresolved(spectrum, rates, settings, &known);
+    let unresolved = unresolved(spectrum, rates, settings, known);
     let cage_evidence = own[BearingPart::Cage as usize];
     let contenders =
         Contenders { best: &fits[best], rivals: &rivals[best], runner_up, ambiguity, cage_evidence };
-    let features = features(&contenders, spectrum, &known);
+    let features = features(&contenders, spectrum, known);
     // FTF alone is in every band that a ball's impacts reach: a cage is to show its many harmonics.
     let few = match fits[best].part {
         BearingPart::Cage => CAGE_WITHOUT_HARMONICS * (1.0 - features[FEATURES.standing]),
@@ -121,10 +132,13 @@ fn rivals_of(
         return Vec::new();
     }
     let others: Vec<LinePeak> =
-        spectrum.peaks.iter().filter(|p| !fit.explains(p.frequency, rates.shaft, step)).copied().collect();
+        spectrum.free_peaks().filter(|p| !fit.explains(p.frequency, rates.shaft, step)).copied().collect();
     // The part's own rate, found again by lines of its family that wandered, is no rival.
     let excluded = |rate: f64| {
-        fit.has_harmonic(rate, step) || fit.part == BearingPart::Ball && (rate / fit.cage - 1.0).abs() < 0.006
+        let near = |base: f64, reach: f64| (rate / base - 1.0).abs() < reach;
+        fit.has_harmonic(rate, step)
+            || fit.part == BearingPart::Ball && near(fit.cage, 0.006)
+            || fit.part == BearingPart::Cage && near(fit.base, CAGE_WANDER)
     };
     find_rivals(&others, rates.shaft, hz_per_unit, step, excluded)
 }
@@ -161,8 +175,7 @@ fn is_cage_harmonic(
     if number < 4.0 || (line.frequency - number * cage.base).abs() > near {
         return false;
     }
-    let first = cage.main_lines().filter(|l| l.harmonic <= 8 && l.evidence > PRESENT);
-    if first.count() >= CAGE_HARMONICS && fit.part == BearingPart::Ball {
+    if cage.is_comb() && fit.part == BearingPart::Ball {
         return true;
     }
     let middle = (0.5 * number).round();
@@ -178,6 +191,28 @@ fn is_cage_harmonic(
             && amplitude > 0.4 * reference
     };
     [middle - 1.0, middle, middle + 1.0].iter().filter(|n| stands(n)).count() >= 2
+}
+
+/// Whether 2 BSF, and 4 BSF or 6 BSF, stand higher than a multiple of FTF below them: a ball's line among the lines of
+/// its load modulation.
+///
+/// Where 2 BSF/FTF is nearly a whole number every line of a ball, h BSF ± k FTF, is near a multiple of FTF. Impacts at FTF
+/// have lines that fall from one multiple to the next.
+fn rises_at_ball(ball: &PartFit, cage: &PartFit, spectrum: &LineSpectrum) -> bool {
+    let level = |place: f64| {
+        let reach = 1.05 * spectrum.step + 3e-3 * place;
+        spectrum.highest(place, reach).map_or(0.0, |(_, amplitude)| amplitude)
+    };
+    let rises = |h: f64| {
+        let place = h * ball.base;
+        let stands = spectrum.evidence(place) > FULL_LINE;
+        let top = place / cage.base;
+        // Half-way down to the harmonic before it.
+        let below = ((top - 0.5 * top / h).ceil() as usize)..(top.round() as usize);
+        let lowest = below.map(|n| level(n as f64 * cage.base)).fold(f64::INFINITY, f64::min);
+        stands && lowest.is_finite() && level(place) > RISE * lowest
+    };
+    rises(1.0) && (rises(2.0) || rises(3.0))
 }
 
 /// Number of side bands of the first `harmonics` that stand and are the part's own.
@@ -200,14 +235,22 @@ fn unresolved(
         let expected = part.defect_frequency(rates);
         let (frequency, amplitude) = spectrum.highest(expected, settings.slip * expected + spectrum.step)?;
         let (kind, rate) = known.origin(frequency)?;
-        let neighbouring = |sign: f64| {
-            let place = frequency + sign * rate;
-            spectrum.highest(place, 1.05 * spectrum.step).map_or(0.0, |(_, a)| a)
+        let level = |place: f64| spectrum.highest(place, 1.05 * spectrum.step).map_or(0.0, |(_, a)| a);
+        let above = |place: f64, distance: f64| {
+            let [before, after] = [-1.0, 1.0].map(|sign| level(place + sign * distance * rate));
+            level(place) > 1.5 * before.max(after)
         };
-        let stands_out = spectrum.evidence(frequency) > COINCIDENCE_EVIDENCE
-            && amplitude > 0.3 * strongest
-            && neighbouring(-1.0).max(neighbouring(1.0)) < amplitude / 1.5;
         let highest = (frequency / rate).round() as usize;
+        // The load modulates an inner race by the shaft: each of its harmonics is the middle of a few orders, and the
+        // shaft's own are higher.
+        let reach = ((highest / 2) as f64).min(MODULATED_ORDERS);
+        let is_modulated = part == BearingPart::InnerRace
+            && kind == RivalKind::Shaft
+            && highest >= 4
+            && amplitude > 0.1 * strongest
+            && [1.0, 2.0].iter().all(|h| above(h * frequency, reach));
+        let stands_out = spectrum.evidence(frequency) > COINCIDENCE_EVIDENCE
+            && (amplitude > 0.3 * strongest && above(frequency, 1.0) || is_modulated);
         let rival = Rival { kind, rate, highest, lines: 1, amplitude, log_odds: 0.0 };
         stands_out.then_some((part, frequency, rival))
     };

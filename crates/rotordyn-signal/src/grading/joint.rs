@@ -88,13 +88,13 @@ mod tests {
     fn weak_lines_at_the_places_of_a_family_count_together() {
         let rates = DefectFrequencies { shaft: 20.3, cage: 7.9, outer: 71.2, inner: 111.5, ball: 47.7 };
         let settings = LineSettings::default();
-        let known = KnownLines { shaft: rates.shaft, hz_per_unit: Some(1.0), step: STEP };
+        let known = KnownLines::new(rates.shaft, Some(1.0), STEP, Vec::new());
         let mean = |part: BearingPart, with_lines: bool| {
             let of = |seed: u64| {
-                let plain = LineSpectrum::new(&spectrum(seed, None), rates.shaft, Some(1.0));
+                let plain = LineSpectrum::new(&spectrum(seed, None), rates.shaft, Some(1.0), None);
                 let fit = PartFit::new(&plain, part, &rates, &settings);
                 let other = spectrum(seed + 1000, with_lines.then_some(fit.base));
-                joint_evidence(&fit, &LineSpectrum::new(&other, rates.shaft, Some(1.0)), &rates, &known)
+                joint_evidence(&fit, &LineSpectrum::new(&other, rates.shaft, Some(1.0), None), &rates, &known)
             };
             let all: Vec<JointEvidence> = (1..=60).map(of).collect();
             let of = |value: fn(&JointEvidence) -> f64| all.iter().map(value).sum::<f64>() / 60.0;

@@ -14,6 +14,11 @@ const DYNAMIC_RANGE: f64 = 2e-3;
 const WIDTHS: [(usize, f64, f64); 4] = [(1, 0.0, 1.0), (3, 300.0, 1.86), (5, 500.0, 2.87), (9, 900.0, 4.91)];
 /// Evidence from which a single peak counts as a line: one noise bin in 2e5 has as much.
 const PEAK_EVIDENCE: f64 = 9.0;
+/// Evidence of a line that may be a beat, the share of its amplitude that is left without shaft and mains if it is one,
+/// and how many bins off it may be left.
+const BEAT_EVIDENCE: f64 = 4.0;
+const LEFT: f64 = 0.5;
+const BEAT_REACH: usize = 1;
 /// Peaks kept.
 const MAX_PEAKS: usize = 40;
 
@@ -26,6 +31,8 @@ pub(super) struct LineSpectrum {
     evidence: Vec<f64>,
     /// Evidence without the lines that shaft or mains may have.
     foreign: Vec<f64>,
+    /// Lines that every machine may have.
+    pub known: KnownLines,
     /// Strongest local maxima above the background, strongest first.
     pub peaks: Vec<LinePeak>,
 }
@@ -42,7 +49,14 @@ impl LineSpectrum {
     /// Evidence: log-likelihood ratio n (q̄ − 1 − ln q̄) of the mean of n bins of q = A² ln 2/m² > 1 against noise.
     ///
     /// m is the running median over ± ¾ of the shaft speed; the noise has q exponential with mean 1.
-    pub fn new(spectrum: &Spectrum, shaft: f64, hz_per_unit: Option<f64>) -> Self {
+    ///
+    /// `without_tones`: the spectrum of the same envelope without the lines of shaft and mains in the band.
+    pub fn new(
+        spectrum: &Spectrum,
+        shaft: f64,
+        hz_per_unit: Option<f64>,
+        without_tones: Option<&Spectrum>,
+    ) -> Self {
         let step = spectrum.frequencies[1] - spectrum.frequencies[0];
         let half_width = ((0.75 * shaft / step).round() as usize).max(24);
         let mut background = running_median(&spectrum.values, half_width);
@@ -52,10 +66,15 @@ impl LineSpectrum {
             spectrum.values.iter().zip(&background).map(|(a, m)| LN_2 * (a / m).powi(2)).collect();
         let evidence = line_evidence(&ratio);
         let peaks = peaks(spectrum, &background, &ratio);
-        let known = KnownLines { shaft, hz_per_unit, step };
+        let known = KnownLines::new(shaft, hz_per_unit, step, beats(without_tones, spectrum, &evidence));
         let open = |(k, e): (usize, &f64)| if known.contains(k as f64 * step) { 0.0 } else { *e };
         let foreign = evidence.iter().enumerate().map(open).collect();
-        LineSpectrum { step, amplitude: spectrum.values.clone(), background, evidence, foreign, peaks }
+        LineSpectrum { step, amplitude: spectrum.values.clone(), background, evidence, foreign, known, peaks }
+    }
+
+    /// Peaks that beats of shaft and mains do not explain.
+    pub fn free_peaks(&self) -> impl Iterator<Item = &LinePeak> {
+        self.peaks.iter().filter(|peak| !self.known.is_beat(peak.frequency))
     }
 
     /// Highest frequency.
@@ -111,11 +130,15 @@ impl LineSpectrum {
 
 /// Lines that every machine may have: harmonics of the shaft speed and of the mains.
 ///
-/// A line that coincides with one of them says nothing of a bearing, whether or not the others stand.
+/// A line that coincides with one of them says nothing of a bearing, whether or not the others stand. Nor does one that
+/// lines of shaft and mains in the record itself give by their beats in the demodulated band.
+#[derive(Clone)]
 pub(super) struct KnownLines {
     pub shaft: f64,
-    pub hz_per_unit: Option<f64>,
-    pub step: f64,
+    hz_per_unit: Option<f64>,
+    step: f64,
+    /// Whether beats explain what stands in a bin; empty without any.
+    beats: Vec<bool>,
 }
 
 impl KnownLines {
@@ -123,8 +146,18 @@ impl KnownLines {
     const SHAFT_ORDERS: f64 = 30.0;
     const MAINS_END: f64 = 600.0;
 
+    pub fn new(shaft: f64, hz_per_unit: Option<f64>, step: f64, beats: Vec<bool>) -> Self {
+        KnownLines { shaft, hz_per_unit, step, beats }
+    }
+
     pub fn contains(&self, frequency: f64) -> bool {
-        self.origin(frequency).is_some()
+        self.is_beat(frequency) || self.origin(frequency).is_some()
+    }
+
+    /// Whether beats of shaft and mains explain a line at a frequency.
+    pub fn is_beat(&self, frequency: f64) -> bool {
+        let bin = (frequency / self.step).round() as usize;
+        self.beats.get(bin).is_some_and(|beat| *beat)
     }
 
     /// What has a line at a frequency, and its rate.
@@ -137,6 +170,9 @@ impl KnownLines {
 
     /// 1 at a line of shaft or mains, falling to 0 at four tolerances from it.
     pub fn nearness(&self, frequency: f64) -> f64 {
+        if self.is_beat(frequency) {
+            return 1.0;
+        }
         let near = |rate: f64, relative: f64| {
             let number = (frequency / rate).round().max(1.0);
             let distance = (frequency - number * rate).abs() / (self.step + relative * frequency);
@@ -167,6 +203,15 @@ impl KnownLines {
         };
         MAINS.into_iter().filter(|_| hz <= Self::MAINS_END).find(is_of).map(|mains| mains / unit)
     }
+}
+
+/// Bins in which a line stands that is missing, there and in the next bins, without the lines of shaft and mains.
+fn beats(without_tones: Option<&Spectrum>, spectrum: &Spectrum, evidence: &[f64]) -> Vec<bool> {
+    let Some(without) = without_tones else { return Vec::new() };
+    let left = |k: usize| without.values.get(k).copied().unwrap_or(0.0);
+    let about = |k: usize| (k.saturating_sub(BEAT_REACH)..=k + BEAT_REACH).map(left).fold(0.0, f64::max);
+    let is_beat = |(k, a): (usize, &f64)| evidence[k] > BEAT_EVIDENCE && about(k) < LEFT * a;
+    spectrum.values.iter().enumerate().map(is_beat).collect()
 }
 
 /// Evidence at every bin, the highest over the admitted widths.

@@ -2,11 +2,13 @@
 //!
 //! In every band the families of the four parts (harmonics within slip and resolution of the defect frequency;
 //! side bands of the shaft speed for the inner race, of FTF for balls) are fitted to the envelope spectrum. A
-//! line is a family's own if shaft, mains, a cage with many harmonics, or a family of any other rate that the
-//! remaining peaks support do not explain it as well. Two logistic regressions for each part on the features of the
-//! best family, either of which suffices (`grade.rs`), give the probability that its part is the damaged one; three of the
-//! features are the joint evidence of its lines in the spectrum of the squared envelope (`joint.rs`). The coefficients have
-//! the signs that mechanics asks for, and it stays below 99.5 %: another source may be at the very rate of a part.
+//! line is a family's own if shaft, mains, a cage with many harmonics, or a family of any other rate that the remaining
+//! peaks support do not explain it as well, and if it stands in the envelope without the lines of shaft and mains that
+//! the band holds: two of these beat at their difference (`machine_tones.rs`). Two logistic regressions for each part
+//! on the features of the best family, either of which suffices (`grade.rs`), give the probability that its part is the
+//! damaged one; three of the features are the joint evidence of its lines in the spectrum of the squared envelope
+//! (`joint.rs`). The coefficients have the signs that mechanics asks for, and it stays below 99.5 %: another source may
+//! be at the very rate of a part.
 //!
 //! Records of `tests/diagnosis`: 12 kHz, 5 s (a fifth of them shorter), bearings of 6 to 16 balls at 8 to 60 rev/s;
 //! half with a fault (cage slip and ball slip up to 2 %, jitter up to 2 % per impact or none, one to four
@@ -43,6 +45,7 @@ mod features;
 mod grade;
 mod joint;
 mod line_spectrum;
+mod machine_tones;
 mod part_fit;
 mod rival_kind;
 mod rivals;
@@ -60,7 +63,8 @@ pub use grade::{
     COEFFICIENTS, FEATURE_COUNT, Features, MOST_CERTAIN, PartCoefficients, REGRESSIONS, probability,
 };
 use joint::{JointEvidence, joint_evidence};
-use line_spectrum::{KnownLines, LineSpectrum};
+use line_spectrum::{LinePeak, LineSpectrum};
+pub(crate) use machine_tones::machine_tones;
 pub use rival_kind::RivalKind;
 pub use rivals::Rival;
 use rivals::find_rivals;
@@ -136,6 +140,14 @@ impl GradedDiagnosis {
                     significant(rival.rate)
                 )
             }
+            // A family at the rate of another part than the one that fits best, which alone has a probability.
+            Finding::Uncertain(part) if part != self.candidate => {
+                format!(
+                    "cannot tell: lines near {} do not suffice for a fault ({})",
+                    part.line_name(),
+                    part.name()
+                )
+            }
             Finding::Uncertain(part) => format!(
                 "cannot tell: lines near {} do not suffice for a fault ({}, {})",
                 part.line_name(),
@@ -179,15 +191,17 @@ pub(crate) struct BandGrading {
 impl BandGrading {
     /// Compares parts and rivals in an envelope spectrum of amplitudes.
     ///
-    /// `hz_per_unit`: Hz per unit of the frequency axis, `None` if it varies (orders).
+    /// `hz_per_unit`: Hz per unit of the frequency axis, `None` if it varies (orders); `without_tones`: the
+    /// envelope spectrum without the lines of shaft and mains in the band.
     pub fn new(
         spectrum: &Spectrum,
         rates: &DefectFrequencies,
         settings: &LineSettings,
         hz_per_unit: Option<f64>,
+        without_tones: Option<&Spectrum>,
     ) -> Self {
         let end = Self::needed_range(rates, settings);
-        let spectrum = LineSpectrum::new(&spectrum.up_to(end), rates.shaft, hz_per_unit);
+        let spectrum = LineSpectrum::new(&spectrum.up_to(end), rates.shaft, hz_per_unit, without_tones);
         let contest = contest(&spectrum, rates, settings, hz_per_unit);
         BandGrading { spectrum, contest, hz_per_unit, slip: settings.slip }
     }
@@ -215,18 +229,18 @@ impl BandGrading {
         let Contest { winner, rivals, unresolved, .. } = &self.contest;
         let mut features = self.contest.features;
         features[FEATURES.given_band] = f64::from(!by_evidence);
-        let known =
-            KnownLines { shaft: rates.shaft, hz_per_unit: self.hz_per_unit, step: self.spectrum.step };
+        let known = &self.spectrum.known;
         let squared = squared.up_to(self.spectrum.end() + 1.5 * self.spectrum.step);
-        let squared = LineSpectrum::new(&squared, rates.shaft, self.hz_per_unit);
-        let JointEvidence { first, harmonics, side_bands } = joint_evidence(winner, &squared, rates, &known);
+        let squared = LineSpectrum::new(&squared, rates.shaft, self.hz_per_unit, None);
+        let JointEvidence { first, harmonics, side_bands } = joint_evidence(winner, &squared, rates, known);
         features[FEATURES.joint_first] = first;
         features[FEATURES.joint_harmonics] = harmonics;
         features[FEATURES.joint_side_bands] = side_bands;
         let probability = grade::grade(winner.part, &features);
         // Without a part to name every family counts, also one at the rate of the part that fits best.
         let every = || {
-            find_rivals(&self.spectrum.peaks, rates.shaft, self.hz_per_unit, self.spectrum.step, |_| false)
+            let peaks: Vec<LinePeak> = self.spectrum.free_peaks().copied().collect();
+            find_rivals(&peaks, rates.shaft, self.hz_per_unit, self.spectrum.step, |_| false)
         };
         let rivals = &if probability >= MENTIONED { rivals.clone() } else { every() };
         let step = self.spectrum.step;
@@ -246,8 +260,8 @@ impl BandGrading {
             }
             _ if probability >= MENTIONED => Finding::Uncertain(winner.part),
             (None, Some(rival)) => match line_at(rival.rate) {
-                Some(part) if part == winner.part => Finding::Uncertain(part),
-                _ => Finding::Periodic(rival.rate),
+                Some(part) => Finding::Uncertain(part),
+                None => Finding::Periodic(rival.rate),
             },
             (None, None) => Finding::NoFault,
         };

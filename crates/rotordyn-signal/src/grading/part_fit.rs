@@ -15,6 +15,9 @@ const NOISE_EVIDENCE: f64 = 4.0;
 /// Evidence from which a line of a family at a known place counts as present.
 pub(super) const PRESENT: f64 = 7.0;
 
+/// Harmonics of FTF among the first eight that make a cage: a ball's load modulation gives up to five.
+const COMB: usize = 6;
+
 /// A line of a fitted family.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FittedLine {
@@ -188,6 +191,11 @@ impl PartFit {
 
     pub fn evidence(&self) -> f64 {
         self.lines.iter().map(|l| l.evidence).sum()
+    }
+
+    /// Whether most of its first eight harmonics stand, as those of a cage do.
+    pub fn is_comb(&self) -> bool {
+        self.main_lines().filter(|l| l.harmonic <= 8 && l.evidence > PRESENT).count() >= COMB
     }
 
     pub fn main_lines(&self) -> impl Iterator<Item = &FittedLine> {

@@ -76,7 +76,7 @@ pub fn shaft_speed(
     let spectrum = amplitude_spectrum(&centred, sample_rate, WindowKind::Hann, Level::Peak)?;
     let windowed = WindowedRecord::new(&centred);
     let near = |speed: f64, new: &dyn Fn(usize) -> bool| {
-        family(&windowed, &LineSpectrum::new(&spectrum, speed, None), speed, range, new)
+        family(&windowed, &LineSpectrum::new(&spectrum, speed, None, None), speed, range, new)
     };
     if let Some(speed) = near(stated, &|_| true) {
         return Ok(SpeedFinding::Found(speed));

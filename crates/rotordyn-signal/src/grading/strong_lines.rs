@@ -21,6 +21,8 @@ pub enum Explanation {
     /// Harmonic of the shaft speed.
     Shaft(usize),
     Mains,
+    /// Difference of lines of shaft and mains in the record itself, which beat in the demodulated band.
+    Beat,
     /// Family of another rate \[Hz, or order\].
     Periodic(f64),
     /// Nothing known.
@@ -61,6 +63,7 @@ pub(super) fn strong_lines(
             Some(r) if r.kind == RivalKind::Shaft => Explanation::Shaft(order as usize),
             Some(r) if r.kind == RivalKind::Mains => Explanation::Mains,
             Some(r) => Explanation::Periodic(r.rate),
+            None if spectrum.known.is_beat(frequency) => Explanation::Beat,
             None => Explanation::Unexplained,
         }
     };

@@ -7,6 +7,7 @@ mod clock;
 mod faults;
 mod fit;
 mod generator;
+mod motors;
 mod others;
 mod path;
 mod random;

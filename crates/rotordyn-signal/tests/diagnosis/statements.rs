@@ -105,6 +105,22 @@ fn line_on_a_shaft_order_cannot_be_told() {
     );
 }
 
+/// BPFI of 6.996 orders with the load's modulation by the shaft: 5x to 9x and 13x to 15x.
+#[test]
+fn inner_race_on_a_shaft_order_cannot_be_told() {
+    let rates = DefectFrequencies { outer: 4.004 * 30.0, inner: 6.996 * 30.0, cage: 0.364 * 30.0, ..RATES };
+    let turn = std::f64::consts::TAU * rates.shaft;
+    let zone = move |t: f64| (turn * t).cos().max(0.02);
+    for seed in 43..47 {
+        let found = graded(&record(seed, 5.0, 7.0 * rates.shaft, 0.0, zone), &rates);
+        let words = found.statement("Hz");
+        assert_eq!(
+            words, "cannot tell: the record does not resolve BPFI (210.0 Hz) from 7 x shaft speed (30.00 Hz)",
+            "{found:?}"
+        );
+    }
+}
+
 /// 2 BSF with side bands at FTF is a ball, though FTF be the highest line; FTF with many harmonics is a cage,
 /// though the ninth be BPFO.
 #[test]

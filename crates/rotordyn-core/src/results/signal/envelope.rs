@@ -98,12 +98,13 @@ fn graded_document<'a>(graded: &GradedDiagnosis, unit: &str) -> Document<'a> {
         .table(in_json("strong_lines"), strong)
 }
 
-/// What a strong line belongs to: "outer race", "3x shaft", "mains", "12.42 x 3" or "unexplained".
+/// What a strong line belongs to: "outer race", "3x shaft", "mains", "beat of shaft and mains", "12.42 x 3" or "unexplained".
 fn explanation(line: &StrongLine) -> String {
     match line.explanation {
         Explanation::Bearing(part) => part.name().into(),
         Explanation::Shaft(order) => format!("shaft {order}x"),
         Explanation::Mains => "mains".into(),
+        Explanation::Beat => "beat of shaft and mains".into(),
         Explanation::Periodic(rate) => {
             format!("{:.0} x {}", (line.frequency / rate).round(), crate::document::number(rate, 4))
         }
