@@ -33,6 +33,12 @@ pub fn warning(result: &SignalResult, range: f64) -> Option<String> {
         SpeedFinding::NotFound => {
             Some(format!("{missing}: speed and sampling rate are not confirmed by the record"))
         }
+        SpeedFinding::Elsewhere { speed, ratio: 2.0 } => Some(format!(
+            "{missing}: of its harmonics only even ones stand ({} of {} rpm, no 1x or 3x): the speed may be twice, or the \
+             sampling rate half the one used",
+            speed.harmonics,
+            number(60.0 * speed.speed, 5)
+        )),
         SpeedFinding::Elsewhere { speed, ratio } => Some(format!(
             "{missing}, but one of {} harmonics at {} rpm: if the speed is right the sampling rate is {} times the one used",
             speed.harmonics,

@@ -112,14 +112,15 @@ impl SignalResult {
 
     /// The search for the shaft speed, if neither its harmonics nor a diagnosis confirm the stated one.
     ///
-    /// A part named at 95 % or above has its lines at multiples of the stated speed. Lines of 2 or 4 times that speed
-    /// are harmonics of it too; a family of a half or a quarter of it is doubtful whatever the diagnosis.
+    /// A part named at 95 % or above has its lines at multiples of the stated speed. Lines of 4 times that speed
+    /// are harmonics of it too; a family of a half or a quarter of it is doubtful whatever the diagnosis. So is one of
+    /// twice that speed, its even harmonics without the odd ones: a shaft has 1x.
     pub fn unconfirmed_speed(&self) -> Option<SpeedFinding> {
         let found = self.record_speed.filter(|found| !matches!(found, SpeedFinding::Found(_)))?;
-        let slower = matches!(found, SpeedFinding::Elsewhere { ratio, .. } if ratio < 1.0);
+        let doubtful = matches!(found, SpeedFinding::Elsewhere { ratio, .. } if ratio <= 2.0);
         let graded = self.envelope.as_ref().and_then(|envelope| envelope.graded.as_ref());
         let is_named = graded.is_some_and(|g| g.part().is_some() && g.probability >= CERTAIN);
-        (slower || !is_named).then_some(found)
+        (doubtful || !is_named).then_some(found)
     }
 
     /// The group of the channel.

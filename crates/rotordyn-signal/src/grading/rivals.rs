@@ -202,6 +202,7 @@ fn nearest_number(ratio: f64) -> f64 {
     (ratio + 0.5) as i64 as f64
 }
 
-fn greatest_common_divisor(a: usize, b: usize) -> usize {
+/// Greatest common divisor; that of 0 and a number is the number.
+pub(super) fn greatest_common_divisor(a: usize, b: usize) -> usize {
     if b == 0 { a } else { greatest_common_divisor(b, a % b) }
 }

@@ -3,19 +3,22 @@
 use serde::{Deserialize, Serialize};
 
 use super::super::SignalError;
+use super::super::bearing_lines::DefectFrequencies;
 use super::super::error::{check, check_rate, check_record};
 use super::super::spectrum::{Level, amplitude_spectrum};
 use super::super::window::WindowKind;
 use super::line_spectrum::LineSpectrum;
+use super::rival_kind::MAINS;
+use super::rivals::greatest_common_divisor;
 use super::zoom::{WindowedRecord, Zoom};
 
 /// Harmonics of the shaft speed that are searched.
 const HARMONICS: usize = 10;
 /// Evidence from which a harmonic stands.
 const STANDS: f64 = 9.0;
-/// Evidence of one harmonic that counts fully, more by its logarithm: no line alone decides.
+/// Evidence of one harmonic that counts fully; more counts as its amplitude does, so that high lines weigh more than
+/// many low ones.
 const LIMIT: f64 = 40.0;
-const EXCESS: f64 = 10.0;
 /// Standard deviation of a line's frequency times √q in bins, q its power over the noise's, behind a Hann window.
 ///
 /// σ² q = ∫w²t² / (32 π² ∫w² (∫wt²)²) with w = cos² πt on −½..½; without a window it would be the Cramér–Rao bound.
@@ -23,6 +26,12 @@ const HANN_DEVIATION: f64 = 0.487;
 /// Harmonics that make a family: chance gives three within a bin of one comb in fewer than 1 of 1000 noise
 /// records (each stands with probability 3 × 10⁻⁵ per trial, some thousand independent trials).
 const FAMILY: usize = 3;
+/// Weight of harmonics where the bearing may have lines, and how many others have to stand.
+const OF_BEARING: f64 = 0.15;
+const LEAST_OWN: usize = 2;
+/// Harmonics of the bearing's lines, and their slip.
+const BEARING_HARMONICS: u32 = 3;
+const SLIP: f64 = 0.02;
 /// Ratios at which a family elsewhere suggests a wrong sampling rate.
 const OTHER_RATIOS: [f64; 4] = [0.25, 0.5, 2.0, 4.0];
 
@@ -54,13 +63,16 @@ pub enum SpeedFinding {
 /// bins, q = A² over the noise's. Then f = Σ w f_n/n over the harmonics' own maxima f_n, w = (n/σ_n)² and
 /// σ_n = 0.487 Δf/√q_n, which is 1.53 times the Cramér–Rao bound: the price of the Hann window. `record`
 /// \[any unit\], `sample_rate` \[Hz\], `stated` \[rev/s\], `range` relative, 0 to 0.2. Where the f_n/n scatter more than
-/// noise explains the uncertainty is that of their scatter. Errors: NaN, a speed or range out of range, fewer than
+/// noise explains the uncertainty is that of their scatter. Where mains have lines a harmonic says nothing of the speed;
+/// where the `bearing` (at the stated speed) may have them it counts for a seventh, and two others have to stand; a
+/// family of even harmonics alone is one of twice the speed. Errors: NaN, a speed or range out of range, fewer than
 /// ten revolutions. Source for σ_n: Rife and Boorstyn, Bell Syst. Tech. J. 55 (1976).
 pub fn shaft_speed(
     record: &[f64],
     sample_rate: f64,
     stated: f64,
     range: f64,
+    bearing: Option<&DefectFrequencies>,
 ) -> Result<SpeedFinding, SignalError> {
     check_record("record", record)?;
     check_rate(sample_rate)?;
@@ -76,7 +88,9 @@ pub fn shaft_speed(
     let spectrum = amplitude_spectrum(&centred, sample_rate, WindowKind::Hann, Level::Peak)?;
     let windowed = WindowedRecord::new(&centred);
     let near = |speed: f64, new: &dyn Fn(usize) -> bool| {
-        family(&windowed, &LineSpectrum::new(&spectrum, speed, None, None), speed, range, new)
+        let lines = LineSpectrum::new(&spectrum, speed, None, None);
+        let foreign = Foreign { step: lines.step, range, bearing, speed };
+        family(&windowed, &lines, speed, range, &foreign, new)
     };
     if let Some(speed) = near(stated, &|_| true) {
         return Ok(SpeedFinding::Found(speed));
@@ -97,17 +111,41 @@ fn family(
     lines: &LineSpectrum,
     stated: f64,
     range: f64,
+    foreign: &Foreign,
     counts: &dyn Fn(usize) -> bool,
 ) -> Option<RecordSpeed> {
     let step = lines.step;
     let count = HARMONICS.min((lines.end() / (stated * (1.0 + range))) as usize);
-    let score = |speed: f64| (1..=count).map(|n| limited(lines.evidence(n as f64 * speed))).sum::<f64>();
+    let score = |speed: f64| {
+        let of_bearing = |bearing: bool| {
+            let numbers = (1..=count).filter(move |n| foreign.bearing_has(*n) == bearing);
+            let places = numbers.map(|n| n as f64 * speed).filter(|place| !foreign.mains_have(*place));
+            joint(places.map(|place| limited(lines.evidence(place))))
+        };
+        of_bearing(false) + OF_BEARING * of_bearing(true)
+    };
     let trials = (range * stated * HARMONICS as f64 / step).ceil() as i64;
     let coarse = best_of(stated, step / HARMONICS as f64, trials, score);
-    let standing: Vec<usize> = (1..=count).filter(|n| lines.evidence(*n as f64 * coarse) >= STANDS).collect();
+    let mut standing: Vec<usize> =
+        (1..=count).filter(|n| lines.evidence(*n as f64 * coarse) >= STANDS).collect();
     let counted = standing.iter().filter(|n| counts(**n)).count();
     if counted < FAMILY || standing.iter().all(|n| *n > 2) {
         return None;
+    }
+    // A family that the bearing explains is no shaft.
+    let free: Vec<usize> = standing.iter().copied().filter(|n| !foreign.bearing_has(*n)).collect();
+    if free.len() < LEAST_OWN {
+        return None;
+    }
+    // Multiples of one number are harmonics of another rate: of a bearing, or of a shaft at that number of speeds.
+    let deciding = if free.len() < FAMILY { &standing } else { &free };
+    if deciding.iter().fold(0, |a, b| greatest_common_divisor(a, *b)) != 1 {
+        return None;
+    }
+    // Lines of the mains may be those of the shaft; their places say nothing of its speed.
+    let own = |n: &usize| !foreign.mains_have(*n as f64 * coarse) && !foreign.bearing_has(*n);
+    if standing.iter().filter(|n| own(n)).count() >= FAMILY {
+        standing.retain(own);
     }
     // Power over the noise's of an amplitude near harmonic n.
     let ratio =
@@ -141,7 +179,57 @@ fn family(
 
 /// Evidence that counts in the first search: the top of a strong line is preferred to its skirts.
 fn limited(evidence: f64) -> f64 {
-    if evidence <= LIMIT { evidence } else { LIMIT + EXCESS * (evidence / LIMIT).ln() }
+    if evidence <= LIMIT { evidence } else { (LIMIT * evidence).sqrt() }
+}
+
+/// Σ min(e, e₂) with the second highest, e₂: no line alone decides.
+fn joint(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let (mut first, mut second) = (0.0f64, 0.0f64);
+    for value in values.clone() {
+        if value > first {
+            (first, second) = (value, first);
+        } else {
+            second = second.max(value);
+        }
+    }
+    values.map(|value| value.min(second)).sum()
+}
+
+/// What else may have lines at harmonics of a shaft.
+struct Foreign<'a> {
+    step: f64,
+    /// Relative range of the search.
+    range: f64,
+    bearing: Option<&'a DefectFrequencies>,
+    /// Speed about which is searched \[Hz\].
+    speed: f64,
+}
+
+impl Foreign<'_> {
+    /// Whether mains have a harmonic at a frequency, within two bins and 0.03 %.
+    fn mains_have(&self, frequency: f64) -> bool {
+        MAINS.iter().any(|rate| {
+            let number = (frequency / rate).round();
+            number >= 1.0 && (frequency - number * rate).abs() <= 2.0 * self.step + 3e-4 * frequency
+        })
+    }
+
+    /// Whether the bearing may have a line at n times a speed in the range: one of its harmonics, side bands included,
+    /// as far from n times the speed given as range and slip go.
+    fn bearing_has(&self, n: usize) -> bool {
+        let Some(DefectFrequencies { shaft, cage, outer, inner, ball }) = self.bearing else { return false };
+        let near = |line: f64| {
+            let order = line * self.speed.recip();
+            (order - n as f64).abs() <= (self.range + SLIP) * order + self.step / self.speed
+        };
+        (1..=BEARING_HARMONICS).any(|h| {
+            let h = f64::from(h);
+            near(h * outer)
+                || (-2..=2).any(|m| {
+                    near(h * inner + f64::from(m) * shaft) || near(2.0 * h * ball + f64::from(m) * cage)
+                })
+        })
+    }
 }
 
 /// The trial centre + k step, |k| ≤ `trials`, of the highest value; of equal ones the nearest to the centre.

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
+use rotordyn_signal::bearing_lines::DefectFrequencies;
 use rotordyn_signal::grading::{SpeedFinding, shaft_speed};
 
 use super::path::{sum, tones, white};
@@ -31,7 +32,7 @@ fn true_speed_with_its_uncertainty() {
         let orders: Vec<f64> = (1..=random.integer(3, 6)).map(|n| n as f64).collect();
         let lines: Vec<_> = orders.iter().map(|n| (n * speed, level / n, random.phase())).collect();
         let record = sum(&white(random), &tones(&lines), 1.0);
-        let found = shaft_speed(&record, RATE, stated, 0.03).unwrap();
+        let found = shaft_speed(&record, RATE, stated, 0.03, None).unwrap();
         let SpeedFinding::Found(found) = found else { panic!("{number}: {found:?}") };
         let samples = SAMPLES as f64;
         let bound = (24.0 / (samples.powi(3) * orders.len() as f64 * level * level)).sqrt() * RATE / TAU;
@@ -52,7 +53,7 @@ fn foreign_line_makes_the_speed_less_certain() {
     let random = &mut Random::of_record(19, 0);
     let lines: Vec<_> = [20.0, 40.1, 60.0, 80.0].map(|f| (f, 0.3, random.phase())).into();
     let record = sum(&white(random), &tones(&lines), 1.0);
-    let SpeedFinding::Found(found) = shaft_speed(&record, RATE, 20.0, 0.02).unwrap() else { panic!() };
+    let SpeedFinding::Found(found) = shaft_speed(&record, RATE, 20.0, 0.02, None).unwrap() else { panic!() };
     // Without its scatter the deviation would be 4e-4 rev/s.
     assert!(found.uncertainty > 2e-3 && (found.speed - 20.0).abs() < 2.0 * found.uncertainty, "{found:?}");
 }
@@ -61,7 +62,7 @@ fn foreign_line_makes_the_speed_less_certain() {
 #[test]
 fn wrong_sampling_rate_is_noticed() {
     let stated = 1797.0 / 60.0;
-    let found = shaft_speed(&machine(40, 0.25 * stated), RATE, stated, 0.02).unwrap();
+    let found = shaft_speed(&machine(40, 0.25 * stated), RATE, stated, 0.02, None).unwrap();
     let SpeedFinding::Elsewhere { ratio, speed } = found else { panic!("{found:?}") };
     assert_eq!(ratio, 0.25);
     assert!((speed.speed / (0.25 * stated) - 1.0).abs() < 2e-3, "{speed:?}");
@@ -75,11 +76,72 @@ fn lines_of_the_stated_speed_suggest_no_other() {
         let random = &mut Random::of_record(23, number);
         let lines = [2.0, 4.0].map(|n| (n * stated, 0.3, random.phase()));
         let record = sum(&white(random), &tones(&lines), 1.0);
-        let found = shaft_speed(&record, RATE, stated, 0.02).unwrap();
+        let found = shaft_speed(&record, RATE, stated, 0.02, None).unwrap();
         assert!(
             !matches!(found, SpeedFinding::Elsewhere { ratio, .. } if ratio < 1.0),
             "{number}: {found:?}"
         );
+    }
+}
+
+/// Orders of a 14-ball bearing at a shaft speed.
+fn bearing(shaft: f64) -> DefectFrequencies {
+    let [cage, outer, inner, ball] = [0.4158, 5.82116, 8.17884, 2.86385].map(|order| order * shaft);
+    DefectFrequencies { shaft, cage, outer, inner, ball }
+}
+
+/// An inner race at 8.179 orders less slip, with side bands: 2.1 % above the true speed its lines are 7x, 8x and 9x. Lower
+/// than 1x to 3x, they are no shaft.
+#[test]
+fn lines_of_the_bearing_are_no_shaft() {
+    let speed = 27.3322;
+    for number in 0..20 {
+        let random = &mut Random::of_record(29, number);
+        let seconds = random.range(1.0, 5.0);
+        let base = 8.17884 * speed * (1.0 - random.range(0.0, 0.006));
+        let mut lines = vec![(speed, 0.44, 0.3), (2.0 * speed, 0.22, 1.0), (3.0 * speed, 0.14, 2.0)];
+        for (order, level) in [(-2.0, 0.03), (-1.0, 0.06), (0.0, 0.08), (1.0, 0.06), (2.0, 0.03)] {
+            lines.push((base + order * speed, level, random.phase()));
+        }
+        let mut record = sum(&tones(&lines), &white(random), 0.1);
+        record.truncate((seconds * RATE) as usize);
+        let found = shaft_speed(&record, RATE, speed, 0.02, Some(&bearing(speed))).unwrap();
+        let SpeedFinding::Found(found) = found else { panic!("{number}: {found:?}") };
+        assert!((found.speed / speed - 1.0).abs() < 5e-4, "{number}: {found:?}");
+    }
+}
+
+/// Harmonics of BPFO alone, 3.04 orders, are no shaft, and neither is hum with its harmonics.
+#[test]
+fn families_of_bearing_and_mains_are_no_shaft() {
+    let rates =
+        DefectFrequencies { outer: 3.04 * 24.7, inner: 4.96 * 24.7, cage: 0.38 * 24.7, ..bearing(24.7) };
+    for number in 0..20 {
+        let random = &mut Random::of_record(31, number);
+        for base in [rates.outer, 50.0] {
+            let lines: Vec<_> = (1..=6).map(|n| (f64::from(n) * base, 0.3, random.phase())).collect();
+            let record = sum(&white(random), &tones(&lines), 1.0);
+            let found = shaft_speed(&record, RATE, 24.7, 0.02, Some(&rates)).unwrap();
+            assert!(!matches!(found, SpeedFinding::Found(_)), "{number}: {found:?}");
+        }
+    }
+}
+
+/// A record at 12 kHz read as one at 24 kHz: 1x to 3x stand in as 2x, 4x and 6x.
+#[test]
+fn even_harmonics_alone_are_those_of_twice_the_speed() {
+    let stated = 1770.0 / 60.0;
+    for number in 0..20 {
+        let random = &mut Random::of_record(37, number);
+        let lines: Vec<_> =
+            (1..=3).map(|n| (f64::from(n) * stated, 0.4 / f64::from(n), random.phase())).collect();
+        let record = sum(&white(random), &tones(&lines), 1.0);
+        let found = shaft_speed(&record, 2.0 * RATE, stated, 0.02, Some(&bearing(stated))).unwrap();
+        let SpeedFinding::Elsewhere { ratio, speed } = found else { panic!("{number}: {found:?}") };
+        assert!(ratio == 2.0 && (speed.speed / (2.0 * stated) - 1.0).abs() < 1e-3, "{number}: {speed:?}");
+        // At its true rate the same record has its stated speed.
+        let found = shaft_speed(&record, RATE, stated, 0.02, Some(&bearing(stated))).unwrap();
+        assert!(matches!(found, SpeedFinding::Found(_)), "{number}: {found:?}");
     }
 }
 
@@ -88,7 +150,7 @@ fn lines_of_the_stated_speed_suggest_no_other() {
 fn noise_has_no_speed() {
     for number in 0..40 {
         let record = white(&mut Random::of_record(5, number));
-        let found = shaft_speed(&record, RATE, 29.95, 0.02).unwrap();
+        let found = shaft_speed(&record, RATE, 29.95, 0.02, None).unwrap();
         assert_eq!(found, SpeedFinding::NotFound, "{number}");
     }
 }
@@ -101,7 +163,7 @@ fn invalid_speeds_are_errors() {
         (20.0, 0.5, "range of the shaft speed"),
         (1.0, 0.02, "10.000 are needed for shaft harmonics"),
     ] {
-        let text = shaft_speed(&record, RATE, speed, range).unwrap_err().to_string();
+        let text = shaft_speed(&record, RATE, speed, range, None).unwrap_err().to_string();
         assert!(text.contains(words), "{text}");
     }
 }

@@ -253,10 +253,13 @@ impl<'a> Job<'a> {
     /// Speed of the record's own shaft harmonics: a bearing at a stated speed, without a shaft angle.
     fn search_speed(&self) -> Result<Option<SpeedFinding>, SignalError> {
         let stated = self.shaft.filter(|s| s.summary.steady && s.angle.is_empty());
-        let (Some(shaft), Some(_), true) = (stated, self.bearing, self.settings.speed_range > 0.0) else {
+        let (Some(shaft), Some(bearing), true) = (stated, self.bearing, self.settings.speed_range > 0.0)
+        else {
             return Ok(None);
         };
-        match shaft_speed(self.x, self.rate, shaft.summary.mean, self.settings.speed_range) {
+        let (stated, range) = (shaft.summary.mean, self.settings.speed_range);
+        let rates = characteristic_rates(bearing, stated);
+        match shaft_speed(self.x, self.rate, stated, range, Some(&rates)) {
             // Too short for the search: the stated speed stands.
             Err(SignalError::TooFewRevolutions { .. }) => Ok(None),
             found => found.map(Some),
