@@ -18,7 +18,7 @@ use super::args::{OutputFiles, ShaftArgs, StoredArgs};
 use super::failure::Failure;
 use super::folder_lock::FolderLock;
 use super::machine::ModelSource;
-use super::signal::input::{File, InputProblems, clipping_text, cut_time_range};
+use super::signal::input::{File, InputProblems, clipping_text, cut_time_range, dropout_texts};
 use super::signal::shaft_source::ShaftSource;
 use super::store::{self, ModelText};
 use super::studies::{Job, Study};
@@ -121,6 +121,9 @@ pub fn read(
     findings.to_result().map_err(named)?;
     let limited = channels.iter().filter_map(|(_, channel)| clipping_text(channel));
     limited.for_each(|text| terminal.warn_of(Code::ClippedRecord, format!("{}: {text}", path.display())));
+    for (code, text) in channels.iter().flat_map(|(_, channel)| dropout_texts(channel)) {
+        terminal.warn_of(code, format!("{}: {text}", path.display()));
+    }
     let first = &channels[0].1;
     let motion = shaft.motion(first).map_err(|text| named(Failure::Input(text)))?;
     let Some(motion) = motion.filter(|m| !m.angle.is_empty() && !m.summary.steady) else {

@@ -2,6 +2,7 @@
 //! criterion holds.
 
 mod copies;
+mod dropouts;
 mod every_code;
 mod machines;
 mod measured_codes;

@@ -55,6 +55,9 @@ pub const CASES: &[Case] = &[
         ["plain.npz", "spoiled.npz"]
             .map(|file| program::codes(folder.path(), &[&["signal", file][..], &OUT].concat(), 0))
     }),
+    (Code::DeadChannel, || spoiled_samples(|values| values.fill(0.0))),
+    (Code::RecordGap, || spoiled_samples(|values| values[9000..9400].fill(0.0))),
+    (Code::RecordSpike, || spoiled_samples(|values| values[9000] = 1e4)),
     (Code::Identification, || {
         let folder = program::folder(&[]);
         let frfs = [1, 2].map(frf);
@@ -169,6 +172,19 @@ fn shaft_at_30_hz() -> Record {
         noise + 0.3 * angle.cos() + 0.2 * (2.0 * angle).cos() + 0.2 * (3.0 * angle).cos()
     };
     Record::new("acc", Kind::Time, axis, Values::Real((0..25_000).map(sample).collect()), "m/s^2")
+}
+
+/// Codes of a record as measured, and with its samples spoiled.
+fn spoiled_samples(spoil: fn(&mut [f64])) -> [std::collections::BTreeSet<String>; 2] {
+    let folder = program::folder(&[]);
+    let record = shaft_at_30_hz();
+    let Values::Real(mut values) = record.values.clone() else { unreachable!("a record of time") };
+    spoil(&mut values);
+    write(folder.path(), "plain.npz", vec![record.clone()]);
+    write(folder.path(), "spoiled.npz", vec![Record { values: Values::Real(values), ..record }]);
+    let analyses = ["--analyses", "spectrum"];
+    ["plain.npz", "spoiled.npz"]
+        .map(|file| program::codes(folder.path(), &[&["signal", file][..], &analyses, &OUT].concat(), 0))
 }
 
 fn two_discs() -> tempfile::TempDir {

@@ -2,12 +2,14 @@
 
 mod columns;
 mod date_time;
+mod decimal_sign;
 pub(crate) mod encoding;
 mod lvm;
 mod read;
 mod settings;
 mod style;
 mod table_axis;
+mod written_digits;
 
 pub use date_time::date_seconds;
 pub use read::read;

@@ -12,6 +12,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipArchive, ZipWriter};
 
 use super::measured::arrays::{Array, Data};
+use super::measured::axis_names::{Role, meaning};
 use crate::atomic_file;
 use crate::budget::{self, Budget, Exceeded, Limits, MAX_DIMENSIONS};
 use crate::error::Error;
@@ -48,9 +49,10 @@ pub fn read(path: &Path, limits: &Limits) -> Result<(Vec<Array>, Vec<String>, Bu
     if is_npy(&bytes) {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let found = array(&name, &bytes, &budget).map_err(content)?;
-        let reason = format!("{name} (Python objects or a structured type)");
-        let left_out = if found.is_none() { vec![reason] } else { Vec::new() };
-        return Ok((found.into_iter().collect(), left_out, budget));
+        return Ok(match found {
+            Member::Numbers(array) => (vec![array], Vec::new(), budget),
+            Member::Other(reason) => (Vec::new(), vec![format!("{name} ({reason})")], budget),
+        });
     }
     let (arrays, left_out) = archive(&bytes, &budget).map_err(content)?;
     Ok((arrays, left_out, budget))
@@ -127,8 +129,8 @@ fn archive(bytes: &[u8], budget: &Budget) -> Result<(Vec<Array>, Vec<String>), F
             return Err(damaged("its checksum (CRC) does not fit: the archive is damaged"));
         }
         match array(&plain, &data, budget) {
-            Ok(Some(array)) => arrays.push(array),
-            Ok(None) => left_out.push(format!("{plain} (Python objects or a structured type)")),
+            Ok(Member::Numbers(array)) => arrays.push(array),
+            Ok(Member::Other(reason)) => left_out.push(format!("{plain} ({reason})")),
             Err(Fault::Damage(problem)) => return Err(damaged(&problem)),
             Err(fault) => return Err(fault),
         }
@@ -181,10 +183,19 @@ impl<'a> Header<'a> {
     }
 }
 
-/// Reads one .npy; `None` for object and structured arrays, which are not supported.
-fn array(name: &str, bytes: &[u8], budget: &Budget) -> Result<Option<Array>, Fault> {
+/// What a .npy contains.
+enum Member {
+    Numbers(Array),
+    /// Not read, with the reason.
+    Other(&'static str),
+}
+
+const NO_NUMBERS: &str = "Python objects or a structured type";
+
+/// Reads one .npy.
+fn array(name: &str, bytes: &[u8], budget: &Budget) -> Result<Member, Fault> {
     let Header { descr, fortran, shape, end } = Header::read(bytes)?;
-    let Some(descr) = descr else { return Ok(None) };
+    let Some(descr) = descr else { return Ok(Member::Other(NO_NUMBERS)) };
     let count = shape.iter().try_fold(1_usize, |product, n| product.checked_mul(*n)).ok_or(DAMAGED_HEADER)?;
     let (order, kind) = descr.split_at(usize::from(descr.starts_with(['<', '>', '|', '='])));
     let big = order == ">";
@@ -192,6 +203,20 @@ fn array(name: &str, bytes: &[u8], budget: &Budget) -> Result<Option<Array>, Fau
         return Err(DAMAGED_HEADER.into());
     }
     let (kind, width) = kind.split_at(kind.len().min(1));
+    // "M8[us]" has a unit behind its width.
+    let dates = match kind {
+        "M" => Some("dates, datetime64: store seconds from the start"),
+        "m" => Some("durations, timedelta64: store seconds"),
+        _ => None,
+    };
+    let stamps =
+        if dates.is_some() { times_of(&bytes[end..], width, big, &shape, budget, name)? } else { None };
+    if let Some(values) = stamps {
+        return Ok(Member::Numbers(Array { name: name.to_owned(), shape, data: Data::Real(values) }));
+    }
+    if let Some(reason) = dates {
+        return Ok(Member::Other(reason));
+    }
     let width: usize = if width.is_empty() { 1 } else { width.parse().map_err(|_| DAMAGED_HEADER)? };
     let element = if kind == "U" { width.checked_mul(4).ok_or(DAMAGED_HEADER)? } else { width };
     let size = count.checked_mul(element).ok_or(DAMAGED_HEADER)?;
@@ -235,7 +260,7 @@ fn array(name: &str, bytes: &[u8], budget: &Budget) -> Result<Option<Array>, Fau
         })),
         _ => {
             budget.give_back(count.saturating_mul(memory));
-            return Ok(None);
+            return Ok(Member::Other(NO_NUMBERS));
         }
     };
     let data = match data {
@@ -243,7 +268,51 @@ fn array(name: &str, bytes: &[u8], budget: &Budget) -> Result<Option<Array>, Fau
         Data::Complex(v) if fortran => Data::Complex(super::mat::to_row_major(&v, &shape)),
         data => data,
     };
-    Ok(Some(Array { name: name.to_owned(), shape, data }))
+    Ok(Member::Numbers(Array { name: name.to_owned(), shape, data }))
+}
+
+/// Seconds from the first of a list of dates or durations that is named as times are, such as `t`; `None` for others.
+///
+/// `width`: "8\[us\]", the bytes of each and their unit.
+fn times_of(
+    data: &[u8],
+    width: &str,
+    big: bool,
+    shape: &[usize],
+    budget: &Budget,
+    name: &str,
+) -> Result<Option<Vec<f64>>, Fault> {
+    const UNITS: [(&str, f64); 8] = [
+        ("ns", 1e9),
+        ("us", 1e6),
+        ("ms", 1e3),
+        ("s", 1.0),
+        ("m", 1.0 / 60.0),
+        ("h", 1.0 / 3600.0),
+        ("ps", 1e12),
+        ("fs", 1e15),
+    ];
+    let [count] = *shape else { return Ok(None) };
+    let Some(unit) = width.strip_prefix("8[").and_then(|unit| unit.strip_suffix(']')) else {
+        return Ok(None);
+    };
+    let Some((_, per_second)) = UNITS.iter().find(|(known, _)| *known == unit) else { return Ok(None) };
+    if meaning(name, &[Role::Times]).is_none() {
+        return Ok(None);
+    }
+    let data = data.get(..count.checked_mul(8).ok_or(DAMAGED_HEADER)?).ok_or(CUT_OFF)?;
+    budget.take(|| format!("`{name}`"), data.len() as u64)?;
+    let integer = |b: &[u8]| {
+        let bytes = std::array::from_fn(|k| b[if big { 7 - k } else { k }]);
+        i64::from_le_bytes(bytes)
+    };
+    let first = data.chunks_exact(8).next().map_or(0, integer);
+    // NaT is the smallest integer.
+    let seconds = |time: i64| match (time, time.checked_sub(first)) {
+        (i64::MIN, _) | (_, None) => f64::NAN,
+        (_, Some(since)) => since as f64 / per_second,
+    };
+    Ok(Some(data.chunks_exact(8).map(|b| seconds(integer(b))).collect()))
 }
 
 /// Texts of `element` bytes each, which may be none.

@@ -20,6 +20,7 @@
 //! | [`lyapunov`] | largest Lyapunov exponent from the growth of a perturbation |
 //! | [`band_noise`] | band-limited Gaussian random function of time |
 //! | [`clipping`] | samples that stand at a limit of their channel |
+//! | [`dropout`] | dead channels, gaps, single absurd samples |
 //! | [`statistics`] | RMS, peak, crest factor, skewness, kurtosis |
 //! | [`impact`] | impact (hammer) test: detection and quality of hits, FRF estimators H1, H2, Hv, coherence, windows |
 //! | [`envelope`] | Hilbert transform: analytic signal, envelope, (squared) envelope spectrum of a band |
@@ -49,6 +50,7 @@ pub mod cyclic;
 pub mod decimate;
 mod demodulator;
 pub mod diagnosis;
+pub mod dropout;
 pub mod envelope;
 pub mod error;
 pub mod filter;

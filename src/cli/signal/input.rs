@@ -3,11 +3,13 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
+use rotordyn::io::measured::ramps::is_ramp;
 use rotordyn::io::measured::run_up::is_rotation_signal;
 use rotordyn::io::measured::{self, unit_label};
 use rotordyn::io::results_file::newest_results;
 use rotordyn::names::nearest;
 use rotordyn::signal::clipping::clipping;
+use rotordyn::signal::dropout::{Dropout, dropouts};
 use rotordyn::signal::record::{MeasuredData, Points, Record, RecordError, Values};
 use rotordyn::study::signal::SignalChannel;
 use rotordyn::units::{self, Dimension, FREQUENCY, TIME};
@@ -162,7 +164,8 @@ impl File {
             _ => 4,
         };
         let vibrates = |r: &&Record| !without.contains(&r.name.as_str()) && !is_rotation_signal(r);
-        self.time_records().filter(vibrates).min_by_key(|r| rank(r))
+        // A time or a counter is one only where there is nothing else.
+        self.time_records().filter(vibrates).min_by_key(|r| (is_ramp(r), rank(r)))
     }
 }
 
@@ -214,21 +217,15 @@ pub struct ChannelSelection<'a> {
 /// The selected channels.
 pub fn channels(file: &File, choice: &ChannelSelection, findings: &mut InputProblems) -> Vec<SignalChannel> {
     let chosen: Vec<&Record> = match choice.names {
-        [] => {
-            let usual = file.default_record(choice.excluded);
-            if usual.is_none() {
-                let kinds: Vec<&str> = file.measured.records.iter().map(|r| r.kind.label()).take(6).collect();
-                findings.problem(format!(
-                    "{} contains no time record ({})",
-                    file.path.display(),
-                    kinds.join(", ")
-                ));
-            }
-            usual.into_iter().collect()
-        }
+        [] => file.default_record(choice.excluded).into_iter().collect(),
         [all] if all == "all" => file.time_records().filter(|r| !is_rotation_signal(r)).collect(),
         names => names.iter().filter_map(|name| findings.value_or_problem("", file.record(name))).collect(),
     };
+    if chosen.is_empty() && matches!(choice.names, [] | [_]) && choice.names.iter().all(|name| name == "all")
+    {
+        let kinds: Vec<&str> = file.measured.records.iter().map(|r| r.kind.label()).take(6).collect();
+        findings.problem(format!("{} contains no time record ({})", file.path.display(), kinds.join(", ")));
+    }
     let quadrature = choice
         .quadrature
         .and_then(|name| findings.value_or_problem("--quadrature-channel: ", file.record(name)));
@@ -338,6 +335,38 @@ pub fn clipping_text(channel: &SignalChannel) -> Option<String> {
         "`{}` is clipped: {} samples stand at {:.4e} {}, in {} excursions: its levels are too low and its harmonics too high",
         channel.name, found.samples, found.limit, channel.unit, found.times
     ))
+}
+
+/// What is said of a channel that is dead, has gaps or absurd samples.
+pub fn dropout_texts(channel: &SignalChannel) -> Vec<(Code, String)> {
+    let SignalChannel { name, unit, start, sample_rate, .. } = channel;
+    let time = |index: usize| format!("{:.6} s", start + index as f64 / sample_rate);
+    let text = |found: Dropout| match found {
+        Dropout::Constant(value) => (
+            Code::DeadChannel,
+            format!(
+                "`{name}` is {value} {unit} in all of its {} samples: it says nothing of the machine",
+                channel.samples.len()
+            ),
+        ),
+        Dropout::Held { index, samples, value } => (
+            Code::RecordGap,
+            format!(
+                "`{name}` stands at {value:.6e} {unit} for {samples} samples, {} to {}",
+                time(index),
+                time(index + samples - 1)
+            ),
+        ),
+        Dropout::Spikes { index, samples, value, ratio } => (
+            Code::RecordSpike,
+            format!(
+                "`{name}` has {samples} single {} {ratio:.0} times as far from the median as any other: {value:.6e} {unit} at {}",
+                if samples == 1 { "sample" } else { "samples" },
+                time(index)
+            ),
+        ),
+    };
+    dropouts(&channel.samples).into_iter().map(text).collect()
 }
 
 /// Sample range between two times.

@@ -113,6 +113,9 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     warnings.into_iter().for_each(|text| terminal.warn_of(Code::SignalAnalysis, text));
     let clipped = channels.iter().filter_map(input::clipping_text);
     clipped.for_each(|text| terminal.warn_of(Code::ClippedRecord, text));
+    // What is computed has no sensors.
+    let measured = channels.iter().filter(|_| !file.stored_run);
+    measured.flat_map(input::dropout_texts).for_each(|(code, text)| terminal.warn_of(code, text));
     findings.coded.into_iter().for_each(|(code, text)| terminal.warn_of(code, text));
     let speeds = results.iter().filter_map(|result| record_speed::warning(result, settings.speed_range));
     speeds.for_each(|text| terminal.warn_of(Code::ShaftSpeedNotFound, text));

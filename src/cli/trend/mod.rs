@@ -240,6 +240,7 @@ fn take_apart(
         let name = &r.record.name;
         r.left_out.into_iter().for_each(|text| add(Code::LeftOut, text, name));
         r.warnings.into_iter().for_each(|text| add(Code::SignalAnalysis, text, name));
+        r.dropouts.into_iter().for_each(|(code, text)| add(code, text, name));
         if r.speed_not_found {
             let text = "no family of shaft harmonics near the stated speed: speed and sampling rate are not confirmed";
             add(Code::ShaftSpeedNotFound, text.into(), name);

@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use rotordyn::results::{BearingWithOrders, LineLevel, SignalResult, TrendRecord};
 use rotordyn::signal::diagnosis::BandRule;
-use rotordyn::study::signal::{Analysis, AnalysisSelection, SignalChannel, SignalSettings};
+use rotordyn::study::signal::{Analysis, AnalysisSelection, SignalChannel, SignalSettings, dead_text};
 use rotordyn::study::trend::{line_levels, record_state};
+use rotordyn::warning::Code;
 
 use super::super::failure::Failure;
 use super::super::signal::channel::analyse_channel;
@@ -35,6 +36,8 @@ pub struct Analysed {
     /// Contents of the file that were not read.
     pub left_out: Option<String>,
     pub warnings: Vec<String>,
+    /// Gaps and absurd samples of the channel.
+    pub dropouts: Vec<(Code, String)>,
     /// Whether the shaft speed was searched in the record and not found.
     pub speed_not_found: bool,
     pub failure: Option<Failure>,
@@ -58,6 +61,7 @@ impl Job<'_> {
             number_names: Vec::new(),
             left_out: None,
             warnings: Vec::new(),
+            dropouts: Vec::new(),
             speed_not_found: false,
             failure: None,
         };
@@ -88,6 +92,13 @@ impl Job<'_> {
                 exact.or_else(|| scalars.iter().find(|(name, _)| plain(name) == wanted.to_lowercase()));
             out.number = found.map(|(_, value)| *value).filter(|value| value.is_finite());
             out.number_names = scalars.iter().map(|(name, _)| name.clone()).take(MAX_NUMBERS).collect();
+        }
+        if !file.stored_run {
+            // A dead sensor has no state: levels of zero are no healthy machine.
+            if let Some(reason) = dead_text(&channel.samples) {
+                return Err(Failure::Input(format!("`{}`: {reason}", channel.name)));
+            }
+            out.dropouts = input::dropout_texts(&channel);
         }
         drop(file);
         let judged = match &self.bearing {

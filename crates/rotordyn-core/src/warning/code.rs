@@ -229,6 +229,18 @@ codes! {
         "Samples of a measured channel stand at a limit again and again: its levels are too low, and harmonics appear that the \
          machine does not have.",
         "measure with a larger range of the sensor or the recorder";
+    DeadChannel, "dead-channel", Serious,
+        "A measured channel has one value over the whole record: the sensor is dead, not connected or not supplied. It says \
+         nothing of the machine.",
+        "check sensor, cable and supply, or choose another channel with --channel";
+    RecordGap, "record-gap", Serious,
+        "A measured channel stands at one value for many samples: the sensor or the recorder was interrupted. Levels are too \
+         low, and the steps at the ends of the gap excite the whole spectrum.",
+        "restrict the record to one side of the gap with --time, or measure again";
+    RecordSpike, "record-spike", Caution,
+        "Single samples of a measured channel are far from all others: an error of transmission or a loose contact. They \
+         govern peak, kurtosis and the spectrum at high frequencies.",
+        "restrict the record with --time so that it is without them, or measure again";
     Identification, "identification", Caution,
         "Identified poles or shapes rest on hits that are left out or truncated, or on FRFs that are noisy, few or poorly fitted.",
         "see the text of the warning";

@@ -1,7 +1,9 @@
 //! The columns of a table: names and units from the lines before the numbers, and what a column is.
 
 use super::style::{Cell, TableStyle};
+use super::written_digits::Digits;
 use crate::measured::axis_names::{Meaning, Role, meaning};
+use crate::measured::name_unit;
 use crate::measured::unit_label::{self, SiUnit};
 use rotordyn_signal::Complex;
 use rotordyn_signal::record::AxisQuantity;
@@ -17,14 +19,22 @@ pub(super) struct Column {
     pub im: Vec<f64>,
     /// Number of cells up to the last that is not empty.
     pub length: usize,
+    /// Digits of its numbers, if it may be the times.
+    pub digits: Option<Digits>,
 }
 
 impl Column {
     pub fn new(name: String, stated: String, si: Option<SiUnit>) -> Self {
-        Column { name, stated, si, re: Vec::new(), im: Vec::new(), length: 0 }
+        let may_be_times = name.eq_ignore_ascii_case("x") || meaning(&name, &[Role::Times]).is_some();
+        let digits = may_be_times.then(Digits::default);
+        Column { name, stated, si, re: Vec::new(), im: Vec::new(), length: 0, digits }
     }
 
-    pub fn push(&mut self, cell: Cell) {
+    /// Adds a cell with its text.
+    pub fn push(&mut self, cell: Cell, text: &str) {
+        if let Some(digits) = &mut self.digits {
+            digits.note(text);
+        }
         let value = cell.unwrap_or(Complex::new(f64::NAN, 0.0));
         if value.im != 0.0 && self.im.is_empty() {
             self.im.resize(self.re.len(), 0.0);
@@ -41,6 +51,13 @@ impl Column {
     /// Whether every value is larger than the one before it.
     pub fn increases(&self) -> bool {
         self.im.is_empty() && self.re.windows(2).all(|pair| pair[0] < pair[1])
+    }
+
+    /// Whether no value is smaller than the one before it; rounded times may repeat.
+    pub fn does_not_decrease(&self) -> bool {
+        self.im.is_empty()
+            && self.re.windows(2).all(|pair| pair[0] <= pair[1])
+            && self.re.first() < self.re.last()
     }
 
     /// Quantity of the axis that the column is, by its name and unit; `None` if it is none.
@@ -165,27 +182,10 @@ fn unit_cell(cell: &str) -> &str {
     cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')'])
 }
 
-/// A column from its name, with the unit in brackets, behind a slash or " in ", or as a suffix.
+/// A column from its name, with the unit at its end.
 pub(super) fn column(name: &str) -> Column {
-    for (open, close) in [('[', ']'), ('(', ')')] {
-        if let Some(at) = name.find(open).filter(|_| name.ends_with(close)) {
-            let (base, stated) = (name[..at].trim(), &name[at + 1..name.len() - 1]);
-            if !base.is_empty() {
-                return Column::new(base.into(), stated.into(), unit_label::si(stated));
-            }
-        }
-    }
-    // "a / m/s²" and "Weg in mm", as ISO 80000-1 and DIN 461 want it.
-    for separator in ["/", " in "] {
-        if let Some((base, stated)) = name.split_once(separator)
-            && !base.trim().is_empty()
-            && let Some(si) = unit_label::si(stated.trim())
-        {
-            return Column::new(base.trim().into(), stated.trim().into(), Some(si));
-        }
-    }
-    match unit_label::split_unit_suffix(name) {
-        Some((base, si)) => Column::new(base.into(), name[base.len() + 1..].into(), Some(si)),
+    match name_unit::split(name) {
+        Some((base, stated, si)) => Column::new(base.into(), stated.into(), si),
         None => Column::new(name.into(), String::new(), None),
     }
 }

@@ -14,6 +14,7 @@ use super::date_time::{Stamp, seconds};
 use super::encoding::decoded;
 use super::settings::stated;
 use super::style::TableStyle;
+use super::written_digits::Digits;
 use super::{lvm, table_axis};
 use crate::budget::{self, Budget, Exceeded, Limits};
 use crate::error::{Error, snippet};
@@ -33,6 +34,15 @@ pub fn read(path: &Path, limits: &Limits, given_rate: Option<f64>) -> Result<(Me
     let mut notes = Vec::new();
     let text = decoded(bytes, &budget, &mut notes).map_err(|exceeded| exceeded.of_file(path))?;
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    // Lines that end in a carriage return alone.
+    let text = match text.contains('\n') || !text.contains('\r') {
+        true => text,
+        false => {
+            let taken = budget.take(|| "the text".into(), text.len() as u64);
+            taken.map_err(|exceeded| exceeded.of_file(path))?;
+            text.replace('\r', "\n")
+        }
+    };
     let text = text.trim_start_matches('\u{feff}');
     let found =
         if lvm::is_lvm(text) { lvm::parse(text, &budget) } else { parse(text, &stem, &budget, given_rate) };
@@ -76,7 +86,7 @@ fn parse(
     // The lines before the numbers: rates, names and units are among them.
     let mut before = Vec::new();
     let mut data = lines.clone();
-    let (first, mut style) = loop {
+    let (first, style) = loop {
         let here = data.clone();
         let Some((_, line)) = data.next() else {
             return Err(ContentProblem::new("the file contains no line of numbers", FORMAT_HINT));
@@ -95,20 +105,18 @@ fn parse(
     let last_comment = before.last().copied().filter(|line| is_comment(line) && stated(line).is_none());
     let header_lines: Vec<&str> =
         before.iter().copied().filter(|line| !is_comment(line) && stated(line).is_none()).collect();
-    // Numbers with a decimal comma in one column look like two columns: the header line decides.
-    if let Some(head) = header_lines.last()
-        && style.separator == ','
-        && style.stamps == 0
-        && head.contains([';', '\t'])
-    {
-        let separator = if head.contains(';') { ';' } else { '\t' };
-        style = TableStyle { separator, decimal_comma: true, ..style };
-    }
+    let numbers = data.clone().map(|(_, line)| line).filter(|line| !is_comment(line));
+    let style = style.with_decimal_sign(numbers, header_lines.last().copied())?;
     let width = style.split(first).len();
     budget.objects("columns", width)?;
     let (mut columns, used) = columns(&header_lines, last_comment, style, width, stem);
     let nameless = used.lines.is_empty() && !used.comment;
 
+    // The first column of a table without names may be the times.
+    if let Some(first) = columns.first_mut().filter(|_| nameless) {
+        first.digits = Some(Digits::default());
+    }
+    let mut sign = if style.decimal_comma { Some(',') } else { None };
     let mut stamps = Vec::new();
     for (number, line) in data.filter(|(_, line)| !is_comment(line)) {
         let mut cells = style.split(line);
@@ -145,7 +153,10 @@ fn parse(
                     FORMAT_HINT,
                 )
             })?;
-            column.push(value);
+            column.push(value, cell);
+            if sign.is_none() && cell.contains('.') {
+                sign = Some('.');
+            }
         }
     }
     let mut out = MeasuredData::default();
@@ -161,7 +172,10 @@ fn parse(
         date = style.split(first)[..style.stamps].join(" ");
         times = Some(seconds(&stamps)?);
     }
-    let source = table_axis::Source { settings, times, nameless, given_rate };
+    if style.separator == ',' {
+        sign = Some('.');
+    }
+    let source = table_axis::Source { settings, sign, times, nameless, given_rate };
     let axis = table_axis::of_table(&mut columns, source, budget, &mut out)?;
     records(columns, &axis, &mut out);
     out.records.iter_mut().for_each(|record| record.date.clone_from(&date));

@@ -2,12 +2,20 @@
 
 use super::columns::column;
 use crate::measured::axis_names::{Meaning, Role, meaning};
-use crate::measured::stated_value::stated_value;
+use crate::measured::stated_value::{Written, stated_value};
 
 /// Longest line that states something \[bytes\].
 const MAX_LINE: usize = 200;
+
+/// What a line states.
+pub(super) struct Setting {
+    pub meaning: Meaning,
+    pub name: String,
+    pub value: Written,
+}
+
 /// What a line states, with its name and number; `None` if nothing that is understood.
-pub(super) fn stated(line: &str) -> Option<(Meaning, String, f64)> {
+pub(super) fn stated(line: &str) -> Option<Setting> {
     if line.len() > MAX_LINE {
         return None;
     }
@@ -16,7 +24,7 @@ pub(super) fn stated(line: &str) -> Option<(Meaning, String, f64)> {
     let (key, value) = (&line[..at], line[at + 1..].trim_matches([' ', '\t', ';', '"', '=', ':']));
     let key = column(key.trim().trim_matches('"'));
     let mut meaning = meaning(&key.name, &[Role::Rate, Role::Step, Role::Start, Role::Count])?;
-    let (number, own) = stated_value(value)?;
+    let (value, own) = stated_value(value)?;
     let si = own.or(key.si);
     if let Some(si) = si {
         if !meaning.role.takes_unit(&si.name) {
@@ -24,7 +32,7 @@ pub(super) fn stated(line: &str) -> Option<(Meaning, String, f64)> {
         }
         (meaning.numerator, meaning.divisor) = (si.numerator, si.divisor);
     }
-    Some((meaning, key.name, number))
+    Some(Setting { meaning, name: key.name, value })
 }
 
 #[cfg(test)]
@@ -35,7 +43,8 @@ mod tests {
     #[test]
     fn lines_that_state_a_rate() {
         let rate = |line: &str| {
-            let (meaning, name, value) = stated(line)?;
+            let Setting { meaning, name, value } = stated(line)?;
+            let value = value.definite().expect("a number of one reading");
             StatedRate::of(&meaning, &name, value).map(|stated| stated.rate)
         };
         for line in [

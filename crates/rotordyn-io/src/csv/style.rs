@@ -8,6 +8,10 @@ use rotordyn_signal::Complex;
 /// A real or complex value; `None` for an empty cell.
 pub(super) type Cell = Option<Complex<f64>>;
 
+/// What programs write for a value that is missing or no number.
+const MISSING: [&str; 10] =
+    ["#n/a", "n/a", "na", "-nan", "nan(ind)", "-nan(ind)", "nan(snan)", "1.#qnan", "1.#ind", "-1.#ind"];
+
 /// Separator and decimal sign of a table.
 #[derive(Clone, Copy)]
 pub(super) struct TableStyle {
@@ -54,8 +58,20 @@ impl TableStyle {
         if let Ok(number) = cell.parse::<f64>() {
             return Some(Some(number.into()));
         }
-        if ["#n/a", "n/a", "na", "-nan", "1.#qnan"].iter().any(|missing| cell.eq_ignore_ascii_case(missing)) {
+        if MISSING.iter().any(|missing| cell.eq_ignore_ascii_case(missing)) {
             return Some(Some(f64::NAN.into()));
+        }
+        if let Some(sign) = cell.to_ascii_lowercase().strip_suffix("1.#inf") {
+            return matches!(sign, "" | "+" | "-").then(|| {
+                let infinity = if sign == "-" { f64::NEG_INFINITY } else { f64::INFINITY };
+                Some(infinity.into())
+            });
+        }
+        // Fortran's exponents: 1.25D-03.
+        if let Some((mantissa, exponent)) = cell.split_once(['d', 'D'])
+            && let Ok(number) = format!("{mantissa}e{exponent}").parse::<f64>()
+        {
+            return Some(Some(number.into()));
         }
         complex(&cell).map(Some)
     }

@@ -1,15 +1,20 @@
 //! The axis of a table: a column, dates, or a rate that a line or a column states.
 
 use super::columns::Column;
+use super::decimal_sign::numbers;
+use super::settings::Setting;
+use super::written_digits::{RoundedStep, rounded_step};
 use crate::budget::Budget;
-use crate::measured::axis_names::{Meaning, Role, StatedRate, check_same, six_digits};
+use crate::measured::axis_names::{Meaning, Role, StatedRate, check_same, is_same_rate, six_digits};
 use crate::measured::content_problem::ContentProblem;
 use rotordyn_signal::record::{Axis, AxisQuantity, MeasuredData, Points};
 
 /// Where the axis may be.
 pub(super) struct Source {
     /// What lines before the numbers state.
-    pub settings: Vec<(Meaning, String, f64)>,
+    pub settings: Vec<Setting>,
+    /// Decimal sign of the table, if it has one.
+    pub sign: Option<char>,
     /// Seconds since the first date.
     pub times: Option<Vec<f64>>,
     /// Whether the columns have no names.
@@ -51,14 +56,22 @@ pub(super) fn of_table(
     budget: &Budget,
     out: &mut MeasuredData,
 ) -> Result<TableAxis, ContentProblem> {
-    let (mut settings, source_rate) = (source.settings, source.given_rate);
+    let source_rate = source.given_rate;
+    let mut repeated = Vec::new();
     // A column that repeats the rate is no record, unless there is nothing else.
     while columns.len() > 1
         && let Some(at) = columns.iter().position(|column| column.setting().is_some())
     {
         let column = columns.remove(at);
-        settings.extend(column.setting().map(|(meaning, value)| (meaning, column.name, value)));
+        repeated.extend(column.setting().map(|(meaning, value)| (meaning, column.name, value)));
     }
+    let listed = match source.times {
+        Some(times) => Some(Listed::new(AxisQuantity::Time, times, "dates".into(), None)),
+        None => axis_column(columns, source.nameless, out),
+    };
+    let step = listed.as_ref().and_then(|listed| listed.step);
+    let mut settings = numbers(source.settings, source.sign, step, source_rate, &mut out.notes)?;
+    settings.append(&mut repeated);
     let rates = settings.iter().filter_map(|(meaning, name, value)| {
         StatedRate::of(meaning, name, *value).map(|rate| (meaning.uncertain, rate))
     });
@@ -67,24 +80,32 @@ pub(super) fn of_table(
     let contradicted = instead.is_some();
     let rate = instead.map(|rate| (false, rate)).or_else(|| certain.into_iter().chain(uncertain).next());
 
-    let listed = match source.times {
-        Some(times) => Some((AxisQuantity::Time, times, "dates".to_owned())),
-        None => axis_column(columns, source.nameless, out),
-    };
     let rows = columns.iter().map(|column| column.length).max().unwrap_or(0);
     check_count(&settings, rows, out);
-    let Some((quantity, points, name)) = listed else {
+    let Some(listed) = listed else {
         let start = settings.iter().find(|(meaning, ..)| meaning.role == Role::Start).map_or(0.0, |s| s.2);
         let uniform = rate.as_ref().map(|(_, rate)| (start, rate.step));
         let source = rate.map_or(String::new(), |(_, rate)| rate.source);
         return Ok(TableAxis { points: None, uniform, source });
     };
+    if let Some(rounded) = listed.rounded {
+        let stated = rate.filter(|(uncertain, _)| !uncertain).map(|(_, rate)| rate);
+        return of_rounded(&rounded, &listed.name, stated, (contradicted, source_rate), out);
+    }
+    let Listed { quantity, points, name, .. } = listed;
     if let Some(k) = points
         .windows(2)
         .position(|pair| !matches!(pair[0].partial_cmp(&pair[1]), Some(std::cmp::Ordering::Less)))
     {
         let problem = format!("`{name}` does not increase after its value {}", k + 1);
-        return Err(ContentProblem::new(problem, "sort the lines, and remove duplicate and empty ones"));
+        let advice = match points.windows(2).any(|pair| pair[0] > pair[1]) {
+            true => "sort the lines, or write the parts of the record to files of their own",
+            false => {
+                "write the times with more digits; or, if the samples are at equal steps, write the file without this \
+                 column and give --rate"
+            }
+        };
+        return Err(ContentProblem::new(problem, advice));
     }
     match (Axis::from_points(quantity, points.clone()).points, rate) {
         (Points::NonUniform(_), _) => {
@@ -114,6 +135,52 @@ pub(super) fn of_table(
     Ok(TableAxis { points: Some((quantity, points)), uniform: None, source: format!("the column `{name}`") })
 }
 
+/// Largest relative error of a step by the rounding of its times, and the largest that needs no note.
+const LARGEST_ERROR: f64 = 1e-3;
+const NOTED_ERROR: f64 = 1e-4;
+
+/// The axis of rounded times: by the rate that is given or stated, else by their mean step.
+fn of_rounded(
+    rounded: &RoundedStep,
+    name: &str,
+    stated: Option<StatedRate>,
+    (contradicted, given): (bool, Option<f64>),
+    out: &mut MeasuredData,
+) -> Result<TableAxis, ContentProblem> {
+    let RoundedStep { start, step, error } = *rounded;
+    let mean = 1.0 / step;
+    let uniform =
+        |step: f64, source: String| TableAxis { points: None, uniform: Some((start, step)), source };
+    let of_column = format!("the column `{name}`");
+    if let Some(rate) = given.filter(|rate| (rate / mean - 1.0).abs() <= error + 1e-9) {
+        return Ok(uniform(1.0 / rate, StatedRate::given(rate).source));
+    }
+    if let Some(stated) = stated {
+        let fits =
+            contradicted || (stated.rate / mean - 1.0).abs() <= error || is_same_rate(stated.rate, mean);
+        let of_column = StatedRate { rate: mean, step, source: of_column };
+        let instead = if fits { None } else { one_rate([&stated, &of_column], given, out)? };
+        let rate = instead.unwrap_or(stated);
+        return Ok(uniform(rate.step, rate.source));
+    }
+    // A whole number of Hz within the error is meant.
+    let whole = Some(mean.round()).filter(|whole| *whole >= 1.0 && (whole / mean - 1.0).abs() <= error);
+    let rate = whole.unwrap_or(mean);
+    if error > LARGEST_ERROR && given.is_none() {
+        let problem = format!(
+            "`{name}` is written with too few digits: its sampling rate lies between {} and {} Hz",
+            six_digits(mean * (1.0 - error)),
+            six_digits(mean * (1.0 + error))
+        );
+        return Err(ContentProblem::new(problem, "give the sampling rate with --rate, or write more digits"));
+    }
+    if error > NOTED_ERROR {
+        let percent = six_digits((1e4 * error).ceil() / 100.0);
+        out.notes.push(format!("`{name}` is rounded: its sampling rate is known to {percent} % only"));
+    }
+    Ok(uniform(1.0 / rate, of_column))
+}
+
 /// Refuses rates that differ, unless the user gives one: it holds instead, and a note names both.
 fn one_rate<'r>(
     rates: impl IntoIterator<Item = &'r StatedRate>,
@@ -131,24 +198,32 @@ fn one_rate<'r>(
 }
 
 /// The column that is the axis, in SI: by its name, or the first one of a table without names.
-fn axis_column(
-    columns: &mut Vec<Column>,
-    nameless: bool,
-    out: &mut MeasuredData,
-) -> Option<(AxisQuantity, Vec<f64>, String)> {
+fn axis_column(columns: &mut Vec<Column>, nameless: bool, out: &mut MeasuredData) -> Option<Listed> {
     if columns.len() < 2 {
         return None;
     }
-    if let Some(at) = columns.iter().position(|column| column.axis().is_some()) {
+    let of = |quantity: AxisQuantity| columns.iter().position(|column| column.axis() == Some(quantity));
+    // Beside times `f` is a force.
+    if let Some(at) = of(AxisQuantity::Time).or_else(|| of(AxisQuantity::Frequency)) {
         let column = columns.remove(at);
         let quantity = column.axis().unwrap_or_default();
         let (up, down) = column.si.as_ref().map_or((1.0, 1.0), |si| (si.numerator, si.divisor));
-        let points = column.re.iter().map(|v| if up == down { *v } else { v * up / down }).collect();
-        return Some((quantity, points, column.name));
+        let si = |v: f64| if up == down { v } else { v * up / down };
+        let points = column.re.iter().copied().map(si).collect();
+        let rounded = column.digits.and_then(|digits| rounded_step(&column.re, &digits));
+        let rounded =
+            rounded.map(|found| RoundedStep { start: si(found.start), step: si(found.step), ..found });
+        return Some(Listed::new(quantity, points, column.name, rounded));
     }
-    let first = columns.first().filter(|first| nameless && first.length >= MIN_TIMES && first.increases())?;
+    let first =
+        columns.first().filter(|first| nameless && first.length >= MIN_TIMES && first.does_not_decrease())?;
     let axis = Axis::from_points(AxisQuantity::Time, first.re.clone());
-    let Points::Uniform { start, step } = axis.points else { return None };
+    let rounded = first.digits.and_then(|digits| rounded_step(&first.re, &digits));
+    let (start, step) = match (axis.points, rounded) {
+        (Points::Uniform { start, step }, _) => (start, step),
+        (_, Some(found)) if found.error <= LARGEST_ERROR => (found.start, found.step),
+        _ => return None,
+    };
     let complex = columns.iter().any(|column| !column.im.is_empty());
     let first = columns.remove(0);
     if step == 1.0 && (start == 0.0 || start == 1.0) {
@@ -160,7 +235,30 @@ fn axis_column(
         false => (AxisQuantity::Time, "time in s"),
     };
     out.notes.push(format!("the table has no names: its first column is taken as {what}"));
-    Some((quantity, first.re, first.name))
+    Some(Listed::new(quantity, first.re, first.name, rounded))
+}
+
+/// A list of times or frequencies.
+struct Listed {
+    quantity: AxisQuantity,
+    points: Vec<f64>,
+    name: String,
+    /// Step of times at equal steps \[s\].
+    step: Option<f64>,
+    /// The step of times that are uniform only within their rounding.
+    rounded: Option<RoundedStep>,
+}
+
+impl Listed {
+    fn new(quantity: AxisQuantity, points: Vec<f64>, name: String, rounded: Option<RoundedStep>) -> Self {
+        let even = match Axis::from_points(quantity, points.clone()).points {
+            Points::Uniform { step, .. } => Some(step),
+            _ => None,
+        };
+        let rounded = rounded.filter(|_| quantity == AxisQuantity::Time && even.is_none());
+        let step = even.or(rounded.map(|found| found.step)).filter(|_| quantity == AxisQuantity::Time);
+        Self { quantity, points, name, step, rounded }
+    }
 }
 
 /// Notes a number of samples that is not that of the lines.

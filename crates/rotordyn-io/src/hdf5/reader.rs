@@ -310,6 +310,8 @@ trait Steps: Bounded {
             LocationType::Group => LinkTarget::Group(mark.clone()),
             LocationType::Dataset => match self.data(path).and_then(|data| self.kind(path, &data)) {
                 Ok(ObjectKind::Other) => LinkTarget::Nothing("neither numbers nor texts".into()),
+                // Its shape is that of a number.
+                Ok(_) if self.is_null(path) => LinkTarget::Nothing("empty".into()),
                 Ok(kind) => LinkTarget::DataSet(kind),
                 Err(Error::Content { problem, .. }) => {
                     LinkTarget::Nothing(problem.trim_start_matches(&format!("{path}: ")).to_owned())
@@ -330,6 +332,11 @@ trait Steps: Bounded {
             return Err(damaged(&self.store().path, problem));
         }
         Ok(data)
+    }
+
+    /// Whether a data set has no values at all.
+    fn is_null(&self, name: &str) -> bool {
+        self.store().file.dataset(name).and_then(|data| data.space()).is_ok_and(|space| space.is_null())
     }
 
     fn shape(&self, name: &str, data: &Dataset) -> Result<Vec<usize>, Error> {

@@ -60,9 +60,15 @@ impl Array {
     }
 
     /// A number, also one that is stored as text, with the unit that the text states.
+    ///
+    /// Programs write texts with a decimal point: "51.200 Hz" is below 52 Hz. "51,200" may be either, and is none.
     pub(super) fn as_stated(&self) -> Option<(f64, Option<SiUnit>)> {
         match &self.data {
-            Data::Text(texts) if texts.len() == 1 => stated_value(&texts[0]),
+            Data::Text(texts) if texts.len() == 1 => {
+                let (written, si) = stated_value(&texts[0])?;
+                let by_point = || written.with('.').filter(|_| written.has_point());
+                Some((written.definite().or_else(by_point)?, si))
+            }
             _ => self.as_scalar().map(|value| (value, None)),
         }
     }

@@ -11,8 +11,8 @@ use std::collections::HashMap;
 pub use super::array::{Array, Data};
 use super::axis_names::six_digits;
 use super::content_problem::ContentProblem;
-use super::structures::{Axes, Structures, last_name};
-use super::{signal_calc, unit_label};
+use super::structures::{Axes, AxisList, Structures, last_name};
+use super::{ramps, signal_calc, unit_label};
 use crate::budget::Budget;
 use crate::error::snippet;
 use rotordyn_signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Points, Record, Values};
@@ -158,6 +158,23 @@ impl<'a> File<'a> {
         Ok(())
     }
 
+    /// Whether an array is a time record although a list of frequencies has its length; a note says so.
+    fn is_time_rather(&self, array: &Array, shape: &[usize], axes: &Axes<'a>) -> bool {
+        let fits = |list: Option<AxisList<'a>>| list.filter(|list| shape.contains(&list.values.len()));
+        let Some(frequency) = fits(axes.frequency) else { return false };
+        let by_time = fits(axes.time).is_some_and(|time| time.distance <= frequency.distance);
+        let by_rate = axes.states_rate_within(frequency.distance);
+        let found = (by_time || by_rate) && ramps::is_time_record(array);
+        if found {
+            self.structures.notes.borrow_mut().push(format!(
+                "`{}` may lie over time or over `{}`: it has values of both signs and is read as a time record",
+                array.name,
+                self.structures.name_of(&frequency)
+            ));
+        }
+        found
+    }
+
     /// One-dimensional slices of an array along its axis.
     fn slices_along_axis(
         &self,
@@ -169,7 +186,8 @@ impl<'a> File<'a> {
         let own = |suffix: &str| self.get(&format!("{}_{suffix}", array.name));
         let own_list = |suffix: &str| own(suffix).and_then(Array::as_list);
         let is_time = own("kind").and_then(Array::as_text) == Some(Kind::Time.label())
-            || array.name.to_lowercase().ends_with("_time");
+            || array.name.to_lowercase().ends_with("_time")
+            || own("kind").is_none() && self.is_time_rather(array, shape, axes);
         let over = |count: usize| -> Result<(Axis, String), ContentProblem> {
             let fits = |list: &&[f64]| list.len() == count;
             let stated_by = |suffix: &str| format!("`{}_{suffix}`", array.name);
@@ -232,7 +250,8 @@ fn two_column_record(array: &Array, axes: &Axes<'_>) -> Option<Record> {
     }
     let column = |k: usize| values.iter().skip(k).step_by(2).copied().collect::<Vec<f64>>();
     let axis = Axis::from_points(AxisQuantity::Time, column(0));
-    let even = matches!(axis.points, Points::Uniform { .. });
+    // A counter states no rate.
+    let even = matches!(axis.points, Points::Uniform { start, step } if !ramps::is_counter(start, step));
     even.then(|| Record::new(&array.name, Kind::Time, axis, Values::Real(column(1)), ""))
 }
 

@@ -205,6 +205,11 @@ impl StatedRate {
     }
 }
 
+/// Whether two rates differ by at most 0.5 %.
+pub(crate) fn is_same_rate(one: f64, other: f64) -> bool {
+    (one / other - 1.0).abs() <= SAME_RATE
+}
+
 /// Refuses rates that differ, naming both.
 ///
 /// # Errors
@@ -212,7 +217,7 @@ impl StatedRate {
 pub(crate) fn check_same<'a>(rates: impl IntoIterator<Item = &'a StatedRate>) -> Result<(), ContentProblem> {
     let mut rates = rates.into_iter();
     let Some(first) = rates.next() else { return Ok(()) };
-    match rates.find(|other| (other.rate / first.rate - 1.0).abs() > SAME_RATE) {
+    match rates.find(|other| !is_same_rate(other.rate, first.rate)) {
         None => Ok(()),
         Some(other) => Err(ContentProblem::new(
             format!(

@@ -247,11 +247,14 @@ impl<'a> Collected<'a> {
                         (vec![texts.len()], Data::Text(texts))
                     }
                     Some(_) => in_rows(&array.shape, &array.data, Data::Real),
-                    None => (array.shape, Data::Real(array.data)),
+                    None => (array.shape, Data::Real(unpacked(array.data, &attributes))),
                 }
             }
         };
-        self.attributes(object.name, &attributes);
+        let is_packing = |(key, _): &(String, Attribute)| PACKING.contains(&key.as_str()) && class.is_none();
+        let others: Vec<(String, Attribute)> =
+            attributes.iter().filter(|attribute| !is_packing(attribute)).cloned().collect();
+        self.attributes(object.name, &others);
         self.found.push(Array { name: object.name.into(), shape, data });
         Ok(())
     }
@@ -327,6 +330,19 @@ fn number(attributes: &[(String, Attribute)], name: &str) -> Option<f64> {
         Attribute::Numbers(values) => values.first().copied(),
         _ => None,
     })
+}
+
+/// Attributes of netCDF by which integers stand for other values: stored times factor plus offset.
+const PACKING: [&str; 2] = ["scale_factor", "add_offset"];
+
+/// The values for which stored ones stand.
+fn unpacked(mut stored: Vec<f64>, attributes: &[(String, Attribute)]) -> Vec<f64> {
+    let [factor, offset] = PACKING.map(|name| number(attributes, name));
+    if factor.is_some() || offset.is_some() {
+        let (factor, offset) = (factor.unwrap_or(1.0), offset.unwrap_or(0.0));
+        stored.iter_mut().for_each(|value| *value = *value * factor + offset);
+    }
+    stored
 }
 
 /// Why something that MATLAB wrote is no array, structure or cell; `None` if it is one, or not of MATLAB.

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::array::Data;
 use super::hdf5_arrays::Collected;
 use super::mapping::direction;
-use super::{arrays, record_arrays, unit_label};
+use super::{arrays, ramps, record_arrays, unit_label};
 use crate::budget::{Budget, Limits};
 use crate::error::Error;
 use crate::hdf5::{Attribute, Reader, Store, open_reader, read_recording};
@@ -30,6 +30,7 @@ pub fn read(path: &Path, limits: &Limits, given_rate: Option<f64>) -> Result<Mea
     let Collected { found, left_out, .. } = Collected::of_file(&*file, &budget)?;
     let mut out = arrays::to_records(&found, &budget, given_rate).map_err(|problem| problem.of_file(path))?;
     out.left_out.splice(0..0, left_out);
+    ramps::take_times(&mut out, given_rate);
     Ok(out)
 }
 

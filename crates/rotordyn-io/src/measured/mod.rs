@@ -21,8 +21,10 @@ pub mod hdf5_records;
 #[cfg(feature = "hdf5")]
 pub mod impact_run;
 pub mod mapping;
+pub(crate) mod name_unit;
 #[cfg(feature = "hdf5")]
 pub mod operating_run;
+pub mod ramps;
 mod record_arrays;
 pub mod run_up;
 mod signal_calc;
@@ -137,6 +139,7 @@ pub fn read_at_rate(path: &Path, limits: &Limits, given_rate: Option<f64>) -> Re
         let mut out =
             arrays::to_records(&arrays, &budget, given_rate).map_err(|problem| problem.of_file(path))?;
         out.left_out.splice(0..0, left_out);
+        ramps::take_times(&mut out, given_rate);
         Ok::<_, Error>(out)
     };
     let mut out = match Format::of_content(&head) {
@@ -148,7 +151,11 @@ pub fn read_at_rate(path: &Path, limits: &Limits, given_rate: Option<f64>) -> Re
         Some(Format::Hdf5) => hdf5_records::read(path, limits, given_rate)?,
         #[cfg(not(feature = "hdf5"))]
         Some(Format::Hdf5) => return Err(without_hdf5(path)),
-        Some(Format::Table) => csv::read(path, limits, given_rate)?.0,
+        Some(Format::Table) => {
+            let mut out = csv::read(path, limits, given_rate)?.0;
+            ramps::take_times(&mut out, given_rate);
+            out
+        }
         None if Format::of_extension(path) == Some(Format::Mat) => {
             return Err(content("it is not a MATLAB file of version 4, 5 or 7.3", "save it with `save -v7`"));
         }

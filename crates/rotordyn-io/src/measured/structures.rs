@@ -50,7 +50,7 @@ pub(super) struct AxisList<'a> {
     place: usize,
     meaning: Meaning,
     /// Structures further out than the record.
-    distance: usize,
+    pub distance: usize,
 }
 
 /// The axes that hold for the records of a structure: its own, else those of the structures around it.
@@ -102,6 +102,10 @@ impl<'a> Structures<'a> {
 
     pub fn get(&self, name: &str) -> Option<&'a Array> {
         self.places.get(name).map(|&k| &self.arrays[k])
+    }
+
+    pub fn name_of(&self, list: &AxisList<'_>) -> &'a str {
+        &self.arrays[list.place].name
     }
 
     pub fn use_array(&self, place: usize) {
@@ -265,6 +269,11 @@ impl<'a> Structures<'a> {
 }
 
 impl Axes<'_> {
+    /// Whether a rate is stated no further out than that.
+    pub fn states_rate_within(&self, distance: usize) -> bool {
+        !self.rates.is_empty() && self.distance <= distance
+    }
+
     pub fn are_unknown(&self) -> bool {
         self.rates.is_empty() && self.time.is_none() && self.frequency.is_none()
     }

@@ -56,6 +56,30 @@ const ADDITIONAL_UNITS: &[(&str, f64, f64, Powers)] = &[
     ("-", 1.0, 1.0, NONE), ("none", 1.0, 1.0, NONE),
 ];
 
+/// Labels without a mark between metres and seconds: no signal is in squares of milliseconds.
+const RUN_TOGETHER: [(&str, &str); 20] = [
+    ("ms2", "m/s^2"),
+    ("ms^2", "m/s^2"),
+    ("ms²", "m/s^2"),
+    ("ms-2", "m/s^2"),
+    ("ms^-2", "m/s^2"),
+    ("ms⁻²", "m/s^2"),
+    ("mps2", "m/s^2"),
+    ("mss", "m/s^2"),
+    ("mms2", "mm/s^2"),
+    ("mms^2", "mm/s^2"),
+    ("mms-2", "mm/s^2"),
+    ("mms⁻²", "mm/s^2"),
+    ("mmps2", "mm/s^2"),
+    ("ms-1", "m/s"),
+    ("ms^-1", "m/s"),
+    ("ms⁻¹", "m/s"),
+    ("mps", "m/s"),
+    ("mms", "mm/s"),
+    ("mms-1", "mm/s"),
+    ("mmps", "mm/s"),
+];
+
 /// Longest label \[bytes\].
 const MAX_LABEL: usize = 100;
 
@@ -69,6 +93,7 @@ pub fn si(label: &str) -> Option<SiUnit> {
     if label.eq_ignore_ascii_case("rpm") || label == "rev/min" || label == "1/min" {
         return Some(SiUnit { name: "rpm".into(), numerator: 1.0, divisor: 1.0 });
     }
+    let label = RUN_TOGETHER.iter().find(|(written, _)| *written == label).map_or(label, |(_, meant)| meant);
     let mut reader = UnitParser { rest: label };
     let product = reader.product()?;
     if label.is_empty() || !reader.rest.trim().is_empty() {
@@ -89,6 +114,12 @@ pub fn split_unit_suffix(name: &str) -> Option<(&str, SiUnit)> {
         "m", "mm", "um", "nm", "s", "ms", "us", "N", "mN", "kN", "g", "V", "mV", "Pa", "kPa", "MPa", "rad",
         "deg", "Hz", "kHz", "K", "W", "kg", "rpm",
     ];
+    if let Some((base, last)) = name.rsplit_once('_')
+        && !base.is_empty()
+        && RUN_TOGETHER.iter().any(|(written, _)| *written == last)
+    {
+        return Some((base, si(last)?));
+    }
     // The longest unit wins: m_s2 before s2.
     let near = |&at: &usize| at > 0 && name.len() - at <= MAX_LABEL;
     let starts: Vec<usize> = name.match_indices('_').map(|(at, _)| at).filter(near).collect();
@@ -167,7 +198,9 @@ impl UnitParser<'_> {
         }
         // A single "1" or "-" is dimensionless.
         for one in ["1", "-"] {
-            if let Some(after) = self.rest.strip_prefix(one) {
+            if let Some(after) = self.rest.strip_prefix(one)
+                && !after.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '^' | '²' | '³' | '⁻'))
+            {
                 self.rest = after;
                 return Some(Product { numerator: 1.0, divisor: 1.0, powers: NONE });
             }
@@ -181,7 +214,7 @@ impl UnitParser<'_> {
     }
 
     fn power(&mut self) -> Option<i32> {
-        for (mark, power) in [('²', 2), ('³', 3)] {
+        for (mark, power) in [("²", 2), ("³", 3), ("⁻¹", -1), ("⁻²", -2), ("⁻³", -3)] {
             if let Some(after) = self.rest.strip_prefix(mark) {
                 self.rest = after;
                 return Some(power);

@@ -13,6 +13,7 @@ use crate::results::{
 use rotordyn_signal::bearing_lines::{DefectFrequencies, LineSettings};
 use rotordyn_signal::cepstrum::real_cepstrum;
 use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, band_envelope, diagnose};
+use rotordyn_signal::dropout::{Dropout, dropouts};
 use rotordyn_signal::filter_bank::max_depth;
 use rotordyn_signal::grading::{SpeedFinding, shaft_speed};
 use rotordyn_signal::kurtogram::{fast_kurtogram, spectral_kurtosis};
@@ -150,7 +151,7 @@ pub struct SignalChannel {
 /// `shaft`: speeds and angles from the channel's first sample on; with an angle only the samples it covers
 /// are used.
 /// `bearing`: characteristic orders. Statistics are always computed. A default analysis that the record does
-/// not allow becomes a warning; a requested one is an error.
+/// not allow becomes a warning; a requested one is an error. A dead channel has no diagnosis of a bearing, with a warning.
 /// Errors: NaN; a record too short, too slowly sampled or without the shaft data for a requested analysis (or
 /// the envelope of a bearing).
 pub fn analyse(
@@ -174,7 +175,12 @@ pub fn analyse(
         statistics: statistics(job.x)?,
         ..SignalResult::default()
     };
+    let dead = bearing.and_then(|_| dead_text(job.x));
     for analysis in job.selected_analyses() {
+        if let Some(reason) = dead.as_ref().filter(|_| analysis == Analysis::Envelope) {
+            out.warnings.push(format!("{}: no bearing diagnosis: {reason}", channel.name));
+            continue;
+        }
         let Err(error) = job.perform(analysis, &mut out) else { continue };
         // The envelope is the main analysis of a bearing: always required.
         let asked = matches!(settings.analyses, AnalysisSelection::Only(_))
@@ -185,6 +191,18 @@ pub fn analyse(
         out.warnings.push(format!("{}: {} omitted: {error}", channel.name, analysis.keyword()));
     }
     Ok(out)
+}
+
+/// Why a channel says nothing of a bearing: one value in all of its samples, or in most; `None` if it may.
+pub fn dead_text(samples: &[f64]) -> Option<String> {
+    dropouts(samples).into_iter().find_map(|found| match found {
+        Dropout::Constant(value) => Some(format!("the channel is {value} throughout: the sensor is dead")),
+        Dropout::Held { samples: held, value, .. } if 2 * held >= samples.len() => Some(format!(
+            "{held} of its {} samples in succession are {value}: the sensor is dead",
+            samples.len()
+        )),
+        _ => None,
+    })
 }
 
 /// Data shared by all analyses of a channel.

@@ -1,0 +1,70 @@
+//! Times as a table writes them: rounded to some digits.
+
+/// The digits of the numbers of a column.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Digits {
+    /// Most digits behind the decimal sign of numbers without an exponent.
+    decimals: Option<i32>,
+    /// Most digits of numbers with an exponent.
+    significant: Option<i32>,
+}
+
+impl Digits {
+    pub fn note(&mut self, cell: &str) {
+        let mantissa = cell.split(['e', 'E', 'd', 'D']).next().unwrap_or_default();
+        if mantissa.len() < cell.len() {
+            let digits = mantissa.trim_start_matches(|c: char| !matches!(c, '1'..='9'));
+            let count = digits.bytes().filter(u8::is_ascii_digit).count() as i32;
+            self.significant = self.significant.max(Some(count));
+        } else if cell.starts_with(|c: char| c.is_ascii_digit() || "+-.,".contains(c)) {
+            let decimals = cell.find(['.', ',']).map_or(0, |at| cell.len() - at - 1) as i32;
+            self.decimals = self.decimals.max(Some(decimals));
+        }
+    }
+
+    /// Unit of the last digit of a value.
+    fn last_digit(&self, value: f64) -> f64 {
+        let fixed = self.decimals.map(|decimals| 10.0_f64.powi(-decimals));
+        let floating = self.significant.map(|significant| {
+            let exponent = value.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
+            10.0_f64.powi(exponent - significant + 1)
+        });
+        fixed.into_iter().chain(floating).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// A uniform step behind rounded times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct RoundedStep {
+    pub start: f64,
+    /// Mean over the whole column.
+    pub step: f64,
+    /// Relative error of the step by the rounding of the first and the last time.
+    pub error: f64,
+}
+
+/// Fewest times of a step.
+const MIN_TIMES: usize = 3;
+
+/// The step of times that deviate from equal steps by no more than their rounding.
+pub(super) fn rounded_step(times: &[f64], digits: &Digits) -> Option<RoundedStep> {
+    let (start, end) = (*times.first()?, *times.last()?);
+    let step = (end - start) / (times.len() - 1) as f64;
+    if times.len() < MIN_TIMES || !(step > 0.0 && step.is_finite()) {
+        return None;
+    }
+    let mut largest: f64 = 0.0;
+    let [first, last] = [start, end].map(|time| digits.last_digit(time));
+    for (k, time) in times.iter().enumerate() {
+        // Half a digit of this time and half of the ends' there, or a whole one where digits are cut off.
+        let digit = digits.last_digit(*time);
+        largest = largest.max(digit);
+        let share = k as f64 / (times.len() - 1) as f64;
+        let bound = 0.5 * (digit + first + (last - first) * share);
+        let even = step.mul_add(k as f64, start);
+        if !digit.is_finite() || (time - even).abs() > 1.001 * bound + f64::EPSILON * end.abs() {
+            return None;
+        }
+    }
+    Some(RoundedStep { start, step, error: largest / (end - start) })
+}

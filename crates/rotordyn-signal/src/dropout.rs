@@ -1,0 +1,271 @@
+//! Channels that are dead, hold one value for a while, or have single samples that no signal has.
+
+/// What is wrong with a channel by its samples alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Dropout {
+    /// Every sample has this value \[unit of the record\].
+    Constant(f64),
+    /// `samples` samples in succession, the first at `index`, have one value.
+    Held { index: usize, samples: usize, value: f64 },
+    /// `samples` single samples are `ratio` times as far from the median as any other; the first is at `index`.
+    Spikes { index: usize, samples: usize, value: f64, ratio: f64 },
+}
+
+/// Fewest equal samples in succession that count.
+const LEAST_HELD: usize = 20;
+/// Most gaps of one record; where there are more, values repeat by the nature of the signal.
+const MOST_GAPS: usize = 5;
+/// Length of a gap over that of the longest other run: quantised signals have runs of up to a few times the next one.
+const LONGER: usize = 8;
+/// Least step into or out of a gap, over the standard deviation outside: a motion comes to rest, or begins, without one.
+const LEAST_STEP: f64 = 0.02;
+/// Most single samples, and how many times as far from the median as any other they are.
+const MOST_SPIKES: usize = 3;
+const SPIKE_RATIO: f64 = 30.0;
+/// Fewest samples among which one is absurd.
+const LEAST_SAMPLES: usize = 100;
+
+/// What is wrong with a channel; empty for one that may be right. `record` of finite values.
+///
+/// A run of equal values is no gap at the start (at rest, before a trigger) or at the value of the start, at the largest or
+/// smallest value (a limit, a square wave), in a signal of few levels (a tacho), where other runs are of its length (few steps of the converter), or if the
+/// record leaves its value without a step (at rest).
+pub fn dropouts(record: &[f64]) -> Vec<Dropout> {
+    let Some(first) = record.first().filter(|_| record.len() > 1) else { return Vec::new() };
+    if record.iter().all(|x| x == first) {
+        return vec![Dropout::Constant(*first)];
+    }
+    held(record).into_iter().chain(spikes(record)).collect()
+}
+
+/// Runs of at least two equal samples: first index and length.
+fn runs(record: &[f64]) -> Vec<(usize, usize)> {
+    let mut found = Vec::new();
+    let mut start = 0;
+    for k in 1..=record.len() {
+        if k == record.len() || record[k] != record[start] {
+            if k - start > 1 {
+                found.push((start, k - start));
+            }
+            start = k;
+        }
+    }
+    found
+}
+
+/// The longest gap.
+fn held(record: &[f64]) -> Option<Dropout> {
+    let mut runs = runs(record);
+    runs.sort_by_key(|(_, samples)| std::cmp::Reverse(*samples));
+    let usual = runs.get(MOST_GAPS).map_or(1, |(_, samples)| *samples);
+    let is_long = |samples: usize| samples >= LEAST_HELD.max(LONGER * usual);
+    let rest = runs.iter().find(|(index, samples)| *index == 0 && is_long(*samples)).map(|_| record[0]);
+    let long: Vec<(usize, usize)> =
+        runs.iter().copied().take(MOST_GAPS).filter(|(_, samples)| is_long(*samples)).collect();
+    let is_outside = |k: usize| !long.iter().any(|(index, samples)| (*index..index + samples).contains(&k));
+    let outside: Vec<f64> = if long.is_empty() {
+        return None;
+    } else {
+        (0..record.len()).filter(|&k| is_outside(k)).map(|k| record[k]).collect()
+    };
+    // A signal of few levels switches between them.
+    let repeated = outside.windows(2).filter(|pair| pair[0] == pair[1]).count();
+    if 2 * repeated > outside.len() {
+        return None;
+    }
+    let [low, high] = [f64::min, f64::max].map(|of: fn(f64, f64) -> f64| outside.iter().copied().reduce(of));
+    let (low, high) = (low?, high?);
+    let step = LEAST_STEP * deviation(&outside);
+    let is_gap = |&(index, samples): &(usize, usize)| {
+        let value = record[index];
+        let end = index + samples;
+        let beyond = |k: Option<usize>| k.and_then(|k| record.get(k)).map_or(0.0, |x| (x - value).abs());
+        let steps = beyond(index.checked_sub(1)).max(beyond(Some(end)));
+        // At a limit of the channel; a dead sensor of a channel with an offset is far from it.
+        let at_limit = (value >= high && value <= high + 0.5 * (high - low))
+            || (value <= low && value >= low - 0.5 * (high - low));
+        index > 0 && rest != Some(value) && !at_limit && steps > step
+    };
+    long.iter().find(|run| is_gap(run)).map(|&(index, samples)| Dropout::Held {
+        index,
+        samples,
+        value: record[index],
+    })
+}
+
+/// Standard deviation.
+fn deviation(values: &[f64]) -> f64 {
+    let count = values.len().max(1) as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt()
+}
+
+/// Single samples far from all others. Pulses last several samples, and shocks ring.
+fn spikes(record: &[f64]) -> Option<Dropout> {
+    if record.len() < LEAST_SAMPLES {
+        return None;
+    }
+    let mut sorted = record.to_vec();
+    let (_, median, _) = sorted.select_nth_unstable_by(record.len() / 2, f64::total_cmp);
+    let median = *median;
+    let distance = |k: usize| (record[k] - median).abs();
+    // The farthest samples, the farthest first.
+    let mut far: Vec<usize> = Vec::with_capacity(MOST_SPIKES + 2);
+    for k in 0..record.len() {
+        let place = far.partition_point(|&other| distance(other) >= distance(k));
+        if place <= MOST_SPIKES {
+            far.insert(place, k);
+            far.truncate(MOST_SPIKES + 1);
+        }
+    }
+    (1..=MOST_SPIKES).find_map(|count| {
+        let (spikes, next) = (&far[..count], distance(*far.get(count)?));
+        let ratio = distance(spikes[count - 1]) / next;
+        let are_single = spikes.iter().all(|k| spikes.iter().all(|other| k.abs_diff(*other) != 1));
+        let index = spikes.iter().copied().min()?;
+        // A record that is zero but for pulses of one sample is made so.
+        let found = next > 0.0 && ratio >= SPIKE_RATIO && are_single;
+        found.then(|| Dropout::Spikes { index, samples: count, value: record[index], ratio })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    fn uniform(seed: u64) -> impl FnMut() -> f64 {
+        let mut state = seed;
+        move || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        }
+    }
+
+    fn noise(count: usize) -> Vec<f64> {
+        let mut random = uniform(3);
+        (0..count).map(|k| random() + (0.3 * k as f64).sin()).collect()
+    }
+
+    /// A record with one value from `from` for `samples` samples.
+    fn with_gap(from: usize, samples: usize, value: f64) -> Vec<f64> {
+        let mut record = noise(20_000);
+        record[from..from + samples].fill(value);
+        record
+    }
+
+    #[test]
+    fn dead_channels_are_constant() {
+        for value in [0.0, 3.0, -1e-9] {
+            assert_eq!(dropouts(&[value; 500]), [Dropout::Constant(value)]);
+        }
+        for too_short in [&[][..], &[1.0]] {
+            assert_eq!(dropouts(too_short), []);
+        }
+    }
+
+    #[test]
+    fn gaps_are_found() {
+        let last = noise(20_000)[7000];
+        for (from, samples, value) in [
+            (7000, 2000, 0.0),
+            (7000, 2000, last),
+            (10_000, 10_000, 0.0),
+            (100, 19_900, 0.0),
+            (500, 25, 0.0),
+            (900, 60, 40.0),
+        ] {
+            let found = dropouts(&with_gap(from, samples, value));
+            let [Dropout::Held { index, samples: count, value: of }] = found[..] else {
+                panic!("{from}: {found:?}")
+            };
+            assert!(index.abs_diff(from) <= 1 && count.abs_diff(samples) <= 1 && of == value, "{found:?}");
+        }
+        // The second of two gaps is the longer; of a channel with an offset zero lies below all values.
+        let mut two = with_gap(7000, 200, 0.0);
+        two[9000..9300].fill(0.5);
+        assert!(matches!(dropouts(&two)[..], [Dropout::Held { index: 9000, samples: 300, .. }]));
+        let mut offset: Vec<f64> = noise(20_000).iter().map(|x| x + 10.0).collect();
+        offset[9000..9300].fill(0.0);
+        assert!(matches!(dropouts(&offset)[..], [Dropout::Held { index: 9000, .. }]));
+    }
+
+    #[test]
+    fn spikes_are_found() {
+        for places in [&[3000][..], &[100, 9000], &[5, 50, 500]] {
+            let mut record = noise(20_000);
+            places.iter().for_each(|&k| record[k] = if k == 100 { -1e4 } else { 1e4 });
+            let found = dropouts(&record);
+            let [Dropout::Spikes { index, samples, ratio, .. }] = found[..] else { panic!("{found:?}") };
+            assert!(index == places[0] && samples == places.len() && ratio > 1000.0, "{found:?}");
+        }
+        // Pulses of a hammer, of one sample and more, and a few large shocks that ring.
+        let pulse = |width: f64| {
+            (0..4000).map(|k| (-((f64::from(k) - 500.0) / width).powi(2)).exp()).collect::<Vec<_>>()
+        };
+        for record in [pulse(1.5), pulse(10.0), pulse(0.01)] {
+            assert_eq!(dropouts(&record), []);
+        }
+        let mut random = uniform(9);
+        let shocks: Vec<f64> = (0..8000)
+            .map(|k| {
+                0.02 * random()
+                    + 500.0 * f64::from(-0.02 * f64::from(k % 3000)).exp() * (1.3 * f64::from(k)).sin()
+            })
+            .collect();
+        assert_eq!(dropouts(&shocks), []);
+    }
+
+    /// Few steps of the converter, limits, square waves, doubled samples, pulses of a tacho.
+    #[test]
+    fn values_that_repeat_by_nature_are_no_gap() {
+        for bits in [3, 4, 6, 8, 12] {
+            for period in [7.3, 41.9, 1203.0, 9876.5] {
+                let full = f64::from(1 << (bits - 1));
+                let mut random = uniform(5);
+                let record: Vec<f64> = (0..60_000)
+                    .map(|k| (0.9 * full * (TAU * k as f64 / period).sin() + 0.05 * random()).round())
+                    .collect();
+                assert_eq!(dropouts(&record), [], "{bits} bits, {period}");
+                let clean: Vec<f64> =
+                    (0..60_000).map(|k| (0.9 * full * (TAU * k as f64 / period).sin()).round()).collect();
+                assert_eq!(dropouts(&clean), [], "{bits} bits, {period}");
+            }
+        }
+        let square: Vec<f64> = (0..9000).map(|k| if (k / 1300) % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        assert_eq!(dropouts(&square), []);
+        let limited: Vec<f64> =
+            (0..20_000).map(|k| (3.0 * (TAU * k as f64 / 5000.0).sin()).clamp(-1.0, 1.0)).collect();
+        assert_eq!(dropouts(&limited), []);
+        let doubled: Vec<f64> = noise(9000).iter().flat_map(|x| [*x; 30]).collect();
+        assert_eq!(dropouts(&doubled), []);
+        let tacho: Vec<f64> = (0..20_000).map(|k| if k % 4100 < 60 { 5.0 } else { 0.02 }).collect();
+        assert_eq!(dropouts(&tacho), []);
+    }
+
+    /// At rest at the start, at rest again, and a stop in between: a motion begins and ends without a step.
+    #[test]
+    fn rest_is_no_gap() {
+        let swing = |k: i32, from: i32| {
+            0.001 * f64::from(k - from).powi(2).min(1000.0) * (0.2 * f64::from(k - from)).sin()
+        };
+        let start: Vec<f64> =
+            (0..9000).map(|k| if k < 3000 { 0.25 } else { 0.25 + swing(k, 3000) }).collect();
+        assert_eq!(dropouts(&start), []);
+        let stop: Vec<f64> = (0..9000)
+            .map(|k| match k {
+                0..3000 => swing(3000, k),
+                3000..5000 => 0.0,
+                _ => swing(k, 5000),
+            })
+            .collect();
+        assert_eq!(dropouts(&stop), []);
+        // A force before and after a blow, and an answer that begins with one.
+        let blow: Vec<f64> =
+            (0..4000).map(|k| if (900..930).contains(&k) { f64::from(k - 890) } else { 0.0 }).collect();
+        assert_eq!(dropouts(&blow), []);
+        let answer: Vec<f64> =
+            (0..4000).map(|k| if k < 900 { 0.0 } else { (0.3 * f64::from(k)).cos() }).collect();
+        assert_eq!(dropouts(&answer), []);
+    }
+}
