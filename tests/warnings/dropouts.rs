@@ -1,4 +1,5 @@
-//! Dead channels are not judged, and what repeats or rests by nature is no gap.
+//! Channels that are no vibration: dead ones are not judged, counters and times not chosen; what repeats or rests by nature
+//! is no gap.
 
 use crate::program;
 use assert_cmd::Command;
@@ -97,5 +98,36 @@ fn repeated_values_of_a_sound_channel_are_not_named() {
             !text.contains("record-gap") && !text.contains("record-spike") && !text.contains("dead-channel"),
             "{text}"
         );
+    }
+}
+
+#[test]
+fn a_counter_is_not_the_default_channel() {
+    let table = |head: &str| {
+        let lines = vibration()
+            .iter()
+            .take(2000)
+            .enumerate()
+            .map(|(k, x)| format!("{k};{x:.5}\n"))
+            .collect::<String>();
+        format!("{head}\n{lines}")
+    };
+    let folder = program::folder(&[
+        ("counter.csv", table("Sample;Accel")),
+        ("spectrum.csv", table("Frequency [Hz];X")),
+    ]);
+    let signal = |arguments: &[&str]| {
+        let mut command = Command::cargo_bin("rotordyn").unwrap();
+        command.arg("signal").args(arguments).args(["--no-figures", "--out", "out", "--json", "--quiet"]);
+        command.current_dir(folder.path()).output().unwrap()
+    };
+    let output = signal(&["counter.csv", "--rate", "12 kHz"]);
+    let document: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(document["channels"][0]["channel"], "Accel", "{document}");
+    assert!(document["warnings"].as_array().unwrap().is_empty(), "{}", document["warnings"]);
+    for channel in [&[][..], &["--channel", "all"]] {
+        let output = signal(&[&["spectrum.csv"], channel].concat());
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success() && text.contains("contains no time record"), "{text}");
     }
 }

@@ -88,7 +88,12 @@ pub(super) fn of_table(
         let source = rate.map_or(String::new(), |(_, rate)| rate.source);
         return Ok(TableAxis { points: None, uniform, source });
     };
-    if let Some(rounded) = listed.rounded {
+    let increases = || listed.points.windows(2).all(|pair| pair[0] < pair[1]);
+    // Few whole numbers that increase unevenly are no rounded times.
+    let is_known = |found: &RoundedStep| {
+        found.error <= LARGEST_ERROR || rate.is_some() || source_rate.is_some() || !increases()
+    };
+    if let Some(rounded) = listed.rounded.filter(is_known) {
         let stated = rate.filter(|(uncertain, _)| !uncertain).map(|(_, rate)| rate);
         return of_rounded(&rounded, &listed.name, stated, (contradicted, source_rate), out);
     }

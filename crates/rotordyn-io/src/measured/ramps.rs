@@ -1,6 +1,6 @@
 //! Channels that increase by equal steps over the whole record: times or counters, no vibrations.
 
-use super::arrays::{Array, Data};
+use super::array::{Array, Data};
 use super::axis_names::{is_same_rate, six_digits};
 use rotordyn_signal::record::{Axis, AxisQuantity, Kind, MeasuredData, Points, Record, Values};
 

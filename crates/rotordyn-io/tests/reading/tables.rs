@@ -177,6 +177,11 @@ fn times_that_are_not_uniform_are_not_taken_for_rounded_ones() {
         format!("{:.5},{x:.5}", (k + if k > 200 { 5 } else { 0 }) as f64 / 12_800.0)
     });
     assert!(found.record("x").unwrap().sample_rate().is_err());
+    // Whole seconds with pauses.
+    let found = read("t.csv", b"t,x\n0,1.5\n1,2.5\n2,1.5\n4,0.5\n5,1.5\n", None).unwrap();
+    assert!(
+        found.record("x").unwrap().sample_rate().is_err() && found.notes[0].contains("not uniformly spaced")
+    );
     let text = table("Time [s],x\n", |k, x| format!("{:.4},{x:.5}", (k - k % 3) as f64 / 1000.0));
     let error = read("t.csv", text.as_bytes(), Some(1000.0)).unwrap_err();
     assert!(error.contains("does not increase") && error.contains("--rate"), "{error}");
