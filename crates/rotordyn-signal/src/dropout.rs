@@ -209,8 +209,7 @@ mod tests {
         let mut random = uniform(9);
         let shocks: Vec<f64> = (0..8000)
             .map(|k| {
-                0.02 * random()
-                    + 500.0 * f64::from(-0.02 * f64::from(k % 3000)).exp() * (1.3 * f64::from(k)).sin()
+                0.02 * random() + 500.0 * (-0.02 * f64::from(k % 3000)).exp() * (1.3 * f64::from(k)).sin()
             })
             .collect();
         assert_eq!(dropouts(&shocks), []);

@@ -339,34 +339,32 @@ pub fn clipping_text(channel: &SignalChannel) -> Option<String> {
 
 /// What is said of a channel that is dead, has gaps or absurd samples.
 pub fn dropout_texts(channel: &SignalChannel) -> Vec<(Code, String)> {
-    let SignalChannel { name, unit, start, sample_rate, .. } = channel;
+    let SignalChannel { name, start, sample_rate, samples: all, .. } = channel;
+    let of_unit = |value: f64| match channel.unit.as_str() {
+        "" => value.to_string(),
+        unit => format!("{value} {unit}"),
+    };
     let time = |index: usize| format!("{:.6} s", start + index as f64 / sample_rate);
     let text = |found: Dropout| match found {
-        Dropout::Constant(value) => (
-            Code::DeadChannel,
-            format!(
-                "`{name}` is {value} {unit} in all of its {} samples: it says nothing of the machine",
-                channel.samples.len()
-            ),
-        ),
-        Dropout::Held { index, samples, value } => (
-            Code::RecordGap,
-            format!(
-                "`{name}` stands at {value:.6e} {unit} for {samples} samples, {} to {}",
-                time(index),
-                time(index + samples - 1)
-            ),
-        ),
-        Dropout::Spikes { index, samples, value, ratio } => (
-            Code::RecordSpike,
-            format!(
-                "`{name}` has {samples} single {} {ratio:.0} times as far from the median as any other: {value:.6e} {unit} at {}",
-                if samples == 1 { "sample" } else { "samples" },
-                time(index)
-            ),
-        ),
+        Dropout::Constant(value) => {
+            let (value, count) = (of_unit(value), all.len());
+            let text =
+                format!("`{name}` is {value} in all of its {count} samples: it says nothing of the machine");
+            (Code::DeadChannel, text)
+        }
+        Dropout::Held { index, samples, value } => {
+            let (value, from, to) = (of_unit(value), time(index), time(index + samples - 1));
+            (Code::RecordGap, format!("`{name}` stands at {value} for {samples} samples, {from} to {to}"))
+        }
+        Dropout::Spikes { index, samples, value, ratio } => {
+            let (value, at) = (of_unit(value), time(index));
+            let samples =
+                if samples == 1 { "a single sample".into() } else { format!("{samples} single samples") };
+            let far = format!("{ratio:.0} times as far from the median as any other");
+            (Code::RecordSpike, format!("`{name}` has {samples} {far}: {value} at {at}"))
+        }
     };
-    dropouts(&channel.samples).into_iter().map(text).collect()
+    dropouts(all).into_iter().map(text).collect()
 }
 
 /// Sample range between two times.
