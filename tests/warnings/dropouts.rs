@@ -77,6 +77,25 @@ fn a_dead_record_of_a_trend_is_a_failure() {
     assert_eq!(text.matches("no bearing fault").count(), 3, "{text}");
 }
 
+/// The pulse of a hammer behind noise, under a force window.
+#[test]
+fn a_force_window_is_no_gap() {
+    let folder = program::folder(&[]);
+    let force = |k: usize| match k {
+        0..60 => 0.01 * vibration()[k],
+        60..80 => 50.0 * (0.15 * (k - 60) as f64).sin(),
+        _ => 0.0,
+    };
+    let axis = Axis::uniform(AxisQuantity::Time, 0.0, 1.0 / RATE);
+    let values = Values::Real((0..6000).map(force).collect());
+    let records = vec![Record::new("force", Kind::Time, axis, values, "N")];
+    measured::write(&folder.path().join("hit.npz"), &MeasuredData { records, ..MeasuredData::default() })
+        .unwrap();
+    let codes =
+        program::codes(folder.path(), &["signal", "hit.npz", "--no-figures", "--analyses", "spectrum"], 0);
+    assert!(!codes.contains("record-gap"), "{codes:?}");
+}
+
 /// A converter of 16 steps, an amplifier at its limit, and a start from rest.
 #[test]
 fn repeated_values_of_a_sound_channel_are_not_named() {

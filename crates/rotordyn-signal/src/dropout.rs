@@ -259,10 +259,10 @@ mod tests {
             })
             .collect();
         assert_eq!(dropouts(&stop), []);
-        // A force before and after a blow, and an answer that begins with one.
-        let blow: Vec<f64> =
+        // A force before and after a hit, and an answer that begins with one.
+        let hit: Vec<f64> =
             (0..4000).map(|k| if (900..930).contains(&k) { f64::from(k - 890) } else { 0.0 }).collect();
-        assert_eq!(dropouts(&blow), []);
+        assert_eq!(dropouts(&hit), []);
         let answer: Vec<f64> =
             (0..4000).map(|k| if k < 900 { 0.0 } else { (0.3 * f64::from(k)).cos() }).collect();
         assert_eq!(dropouts(&answer), []);

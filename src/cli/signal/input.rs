@@ -364,7 +364,10 @@ pub fn dropout_texts(channel: &SignalChannel) -> Vec<(Code, String)> {
             (Code::RecordSpike, format!("`{name}` has {samples} {far}: {value} at {at}"))
         }
     };
-    dropouts(all).into_iter().map(text).collect()
+    // A force window leaves zeros behind the pulse of a hammer.
+    let is_window =
+        |found: &Dropout| channel.unit == "N" && matches!(found, Dropout::Held { value: 0.0, .. });
+    dropouts(all).into_iter().filter(|found| !is_window(found)).map(text).collect()
 }
 
 /// Sample range between two times.
