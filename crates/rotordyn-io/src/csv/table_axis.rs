@@ -3,7 +3,7 @@
 use super::columns::Column;
 use super::decimal_sign::numbers;
 use super::settings::Setting;
-use super::written_digits::{RoundedStep, rounded_step};
+use super::written_digits::{Digits, RoundedStep, are_of_step, rounded_step};
 use crate::budget::Budget;
 use crate::measured::axis_names::{Meaning, Role, StatedRate, check_same, is_same_rate, six_digits};
 use crate::measured::content_problem::ContentProblem;
@@ -93,7 +93,12 @@ pub(super) fn of_table(
     let is_known = |found: &RoundedStep| {
         found.error <= LARGEST_ERROR || rate.is_some() || source_rate.is_some() || !increases()
     };
-    if let Some(rounded) = listed.rounded.filter(is_known) {
+    // One step in a hundred that is longer may be a lost sample: only a rate can tell.
+    let known_rates =
+        [source_rate, rate.as_ref().filter(|(uncertain, _)| !uncertain).map(|(_, rate)| rate.rate)];
+    let fits = |rate: f64| listed.are_of_rate(rate);
+    let tells = |found: &RoundedStep| !found.may_have_slips || known_rates.into_iter().flatten().any(fits);
+    if let Some(rounded) = listed.rounded.filter(is_known).filter(tells) {
         let stated = rate.filter(|(uncertain, _)| !uncertain).map(|(_, rate)| rate);
         return of_rounded(&rounded, &listed.name, stated, (contradicted, source_rate), out);
     }
@@ -103,8 +108,10 @@ pub(super) fn of_table(
         .position(|pair| !matches!(pair[0].partial_cmp(&pair[1]), Some(std::cmp::Ordering::Less)))
     {
         let problem = format!("`{name}` does not increase after its value {}", k + 1);
+        let repeated = points.windows(2).filter(|pair| pair[0] == pair[1]).count();
         let advice = match points.windows(2).any(|pair| pair[0] > pair[1]) {
             true => "sort the lines, or write the parts of the record to files of their own",
+            false if 100 * repeated < points.len() => "remove duplicate and empty lines",
             false => {
                 "write the times with more digits; or, if the samples are at equal steps, write the file without this \
                  column and give --rate"
@@ -152,7 +159,7 @@ fn of_rounded(
     (contradicted, given): (bool, Option<f64>),
     out: &mut MeasuredData,
 ) -> Result<TableAxis, ContentProblem> {
-    let RoundedStep { start, step, error } = *rounded;
+    let RoundedStep { start, step, error, .. } = *rounded;
     let mean = 1.0 / step;
     let uniform =
         |step: f64, source: String| TableAxis { points: None, uniform: Some((start, step)), source };
@@ -218,7 +225,8 @@ fn axis_column(columns: &mut Vec<Column>, nameless: bool, out: &mut MeasuredData
         let rounded = column.digits.and_then(|digits| rounded_step(&column.re, &digits));
         let rounded =
             rounded.map(|found| RoundedStep { start: si(found.start), step: si(found.step), ..found });
-        return Some(Listed::new(quantity, points, column.name, rounded));
+        let written = column.digits.map(|digits| (digits, up / down));
+        return Some(Listed { written, ..Listed::new(quantity, points, column.name, rounded) });
     }
     let first =
         columns.first().filter(|first| nameless && first.length >= MIN_TIMES && first.does_not_decrease())?;
@@ -240,7 +248,8 @@ fn axis_column(columns: &mut Vec<Column>, nameless: bool, out: &mut MeasuredData
         false => (AxisQuantity::Time, "time in s"),
     };
     out.notes.push(format!("the table has no names: its first column is taken as {what}"));
-    Some(Listed::new(quantity, first.re, first.name, rounded))
+    let written = first.digits.map(|digits| (digits, 1.0));
+    Some(Listed { written, ..Listed::new(quantity, first.re, first.name, rounded) })
 }
 
 /// A list of times or frequencies.
@@ -252,6 +261,8 @@ struct Listed {
     step: Option<f64>,
     /// The step of times that are uniform only within their rounding.
     rounded: Option<RoundedStep>,
+    /// Digits of the times as written, and the factor to seconds.
+    written: Option<(Digits, f64)>,
 }
 
 impl Listed {
@@ -262,7 +273,15 @@ impl Listed {
         };
         let rounded = rounded.filter(|_| quantity == AxisQuantity::Time && even.is_none());
         let step = even.or(rounded.map(|found| found.step)).filter(|_| quantity == AxisQuantity::Time);
-        Self { quantity, points, name, step, rounded }
+        Self { quantity, points, name, step, rounded, written: None }
+    }
+
+    /// Whether the times are those of a rate but for their rounding.
+    fn are_of_rate(&self, rate: f64) -> bool {
+        self.written.is_some_and(|(digits, factor)| {
+            let written: Vec<f64> = self.points.iter().map(|time| time / factor).collect();
+            are_of_step(&written, &digits, 1.0 / (rate * factor))
+        })
     }
 }
 

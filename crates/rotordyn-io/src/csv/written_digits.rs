@@ -41,16 +41,23 @@ pub(super) struct RoundedStep {
     pub step: f64,
     /// Relative error of the step by the rounding of the first and the last time.
     pub error: f64,
+    /// Whether nearly all steps are one multiple of the last digit: the others may be lost or doubled samples.
+    pub may_have_slips: bool,
 }
 
 /// Fewest times of a step.
 const MIN_TIMES: usize = 3;
+/// Fewest steps, and their share, that differ from the most frequent one by rounding.
+const FEWEST_OTHERS: usize = 10;
+const SHARE_OF_OTHERS: f64 = 0.01;
+/// Smallest step \[s\]: shorter ones are of days.
+const SHORTEST_STEP: f64 = 1e-7;
 
 /// The step of times that deviate from equal steps by no more than their rounding.
 pub(super) fn rounded_step(times: &[f64], digits: &Digits) -> Option<RoundedStep> {
     let (start, end) = (*times.first()?, *times.last()?);
     let step = (end - start) / (times.len() - 1) as f64;
-    if times.len() < MIN_TIMES || !(step > 0.0 && step.is_finite()) {
+    if times.len() < MIN_TIMES || !(step >= SHORTEST_STEP && step.is_finite()) {
         return None;
     }
     let mut largest: f64 = 0.0;
@@ -66,5 +73,20 @@ pub(super) fn rounded_step(times: &[f64], digits: &Digits) -> Option<RoundedStep
             return None;
         }
     }
-    Some(RoundedStep { start, step, error: largest / (end - start) })
+    let usual = (step / largest).round();
+    let others = times.windows(2).filter(|pair| ((pair[1] - pair[0]) / largest).round() != usual).count();
+    let few = (others as f64) < (SHARE_OF_OTHERS * times.len() as f64).max(FEWEST_OTHERS as f64);
+    Some(RoundedStep { start, step, error: largest / (end - start), may_have_slips: usual >= 1.0 && few })
+}
+
+/// Whether times are those of a step but for their rounding: a lost sample would move those behind it by a step.
+pub(super) fn are_of_step(times: &[f64], digits: &Digits, step: f64) -> bool {
+    let mut range = (f64::INFINITY, f64::NEG_INFINITY);
+    let mut largest: f64 = 0.0;
+    for (k, time) in times.iter().enumerate() {
+        let off = time - step * k as f64;
+        range = (range.0.min(off), range.1.max(off));
+        largest = largest.max(digits.last_digit(*time));
+    }
+    range.1 - range.0 < largest * (1.0 - 1e-4)
 }

@@ -56,7 +56,11 @@ pub(super) fn take_times(out: &mut MeasuredData, given_rate: Option<f64>) {
             _ => given_rate,
         };
         let Some(rate) = rate else { continue };
-        if is_same_rate(rate, 1.0 / step) {
+        // Where a list states the times, another that starts elsewhere is a channel that rises so.
+        let source = out.axis_sources.iter().find(|(name, _)| *name == record.name);
+        let by_rate = source.is_none_or(|(_, source)| source.ends_with(')') || source == "the rate given");
+        let starts_there = by_rate || (start - record.axis.start()).abs() < 0.5 * step;
+        if is_same_rate(rate, 1.0 / step) && starts_there {
             times.push((k, start));
         } else if !is_counter(start, step) && record.name.ends_with(']') {
             // A column of a matrix has no name that says what it is.

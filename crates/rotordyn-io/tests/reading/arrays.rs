@@ -63,6 +63,12 @@ fn a_counter_is_no_time() {
     let found = read("t.csv", format!(",time,x\n{text}").as_bytes(), None).unwrap();
     assert_eq!(found.records.iter().map(is_ramp).collect::<Vec<_>>(), [true, false]);
     assert!(found.notes.is_empty(), "{:?}", found.notes);
+    // A temperature that rises by the step of the times is none.
+    let text: String = (0..COUNT)
+        .map(|k| format!("{:.3},{},{}\n", 1e-3 * k as f64, 20.0 + 1e-3 * k as f64, vibration(k)))
+        .collect();
+    let found = read("t.csv", format!("time,T,x\n{text}").as_bytes(), None).unwrap();
+    assert_eq!((names(&found), found.records[1].axis.start()), (vec!["T", "x"], 0.0));
     // A ramp alone, or with dwells, is a channel.
     let found = read_mat(&[Array::real("x", ramp(0.0, 1e-3)), Array::scalar("fs", 1000.0)], None).unwrap();
     assert_eq!(names(&found), ["x"]);

@@ -160,6 +160,11 @@ fn rounded_times_are_uniform_within_their_digits() {
             assert_eq!(rate(&of(head, decimals, given).unwrap(), "x"), 12_800.0, "{head} {decimals}");
         }
     }
+    // 999 Hz in ms: with the rate alone.
+    let slow: String = (0..3000).map(|k| format!("{:.3},{:.5}\n", k as f64 / 999.5, vibration(k))).collect();
+    let slow = |rate| read("t.csv", format!("Time [s],x\n{slow}").as_bytes(), rate).unwrap();
+    assert!((rate(&slow(Some(999.5)), "x") / 999.5 - 1.0).abs() < 1e-12);
+    assert!(slow(None).record("x").unwrap().sample_rate().is_err());
     // Another rate is stated than the column has.
     let error = of("fs: 25600 Hz\nTime [s],x\n", 4, None).unwrap_err();
     assert!(error.contains("two sampling rates") && error.contains("25600"), "{error}");
@@ -177,6 +182,25 @@ fn times_that_are_not_uniform_are_not_taken_for_rounded_ones() {
         format!("{:.5},{x:.5}", (k + if k > 200 { 5 } else { 0 }) as f64 / 12_800.0)
     });
     assert!(found.record("x").unwrap().sample_rate().is_err());
+    // One lost sample where the last digit is the step: 999.33 Hz and 1 kHz with a gap look alike.
+    for lost in [200, 350] {
+        let text =
+            table("Time [s],x\n", |k, x| format!("{:.3},{x:.5}", 1e-3 * (k + usize::from(k > lost)) as f64));
+        for rate in [None, Some(1000.0)] {
+            let found = read("t.csv", text.as_bytes(), rate).unwrap();
+            assert!(found.record("x").unwrap().sample_rate().is_err(), "{lost} {rate:?}");
+        }
+        let stated = read("t.csv", format!("fs: 1000 Hz\n{text}").as_bytes(), None).unwrap();
+        assert!(stated.record("x").unwrap().sample_rate().is_err(), "{lost}");
+    }
+    // A line twice.
+    let twice =
+        table("Time [s],x\n", |k, x| format!("{:.3},{x:.5}", 1e-3 * (k - usize::from(k > 200)) as f64));
+    let error = read("t.csv", twice.as_bytes(), None).unwrap_err();
+    assert!(error.contains("value 201") && error.contains("remove duplicate"), "{error}");
+    // Days.
+    let days = table("Time,x\n", |k, x| format!("{:.8},{x:.5}", 45_000.0 + k as f64 / 86_400_000.0));
+    assert!(read("t.csv", days.as_bytes(), None).unwrap().record("x").unwrap().sample_rate().is_err());
     // Whole seconds with pauses.
     let found = read("t.csv", b"t,x\n0,1.5\n1,2.5\n2,1.5\n4,0.5\n5,1.5\n", None).unwrap();
     assert!(
