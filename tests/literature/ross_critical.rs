@@ -63,7 +63,7 @@ fn crossings_of_tracked_branches_agree() {
         let speeds: Vec<f64> = (0..=20).map(|k| top * f64::from(k) / 20.0).collect();
         let tangents = |speed: f64| Ok(ross::tangents(&model, speed));
         let diagram = campbell(&assembly, &speeds, 12, &tangents).unwrap();
-        let ours = crossings(&assembly, &diagram, &[1.0], &tangents).unwrap().list;
+        let ours = crossings(&assembly, &diagram, &[1.0], &tangents, &[]).unwrap().list;
         // ROSS goes on linearly beyond a table of bearing coefficients, here the values of its end hold.
         let table_end = model.bearings.iter().map(|site| match &site.bearing {
             Bearing::Linear(linear) => linear.table_range().map_or(f64::INFINITY, |range| range[1]),

@@ -54,7 +54,9 @@ fn motion(
         stepper.advance(system, &mut state, step, k as f64 * step, &mut |_, _| Ok(())).unwrap();
         if k > skip && (k - skip).is_multiple_of(thin) {
             check_divergence(system, &state).unwrap();
-            out.iter_mut().zip(&system.channels).for_each(|(out, channel)| out.push(channel.read(&state)));
+            out.iter_mut()
+                .zip(system.channels.iter())
+                .for_each(|(out, channel)| out.push(channel.read(state.motion())));
         }
     }
     assert_eq!(stepper.halvings, 0, "no step had to be halved");

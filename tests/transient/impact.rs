@@ -70,7 +70,7 @@ fn small_hit_gives_the_linear_frf() {
         .map(|name| model.probes.iter().position(|p| p.name == name).expect("a probe of the rig"))
         .to_vec();
     let rest: Vec<f64> =
-        probes.iter().map(|&p| reduction.system.channels[p].row.dot(&reduction.equilibrium)).collect();
+        probes.iter().map(|&p| reduction.system.channels.list()[p].row.dot(&reduction.equilibrium)).collect();
     let mut responses = [Vec::new(), Vec::new()];
     let settings = Settings {
         integrator: Integrator::Newmark,

@@ -71,6 +71,11 @@ impl Channels {
         self.list.iter()
     }
 
+    /// All of them, in order.
+    pub fn list(&self) -> &[Channel] {
+        &self.list
+    }
+
     /// Appends the values to `out`, in the order of the channels.
     pub fn read(&self, motion: Motion, out: &mut Vec<f64>) {
         let first = out.len();
