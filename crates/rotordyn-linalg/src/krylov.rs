@@ -19,8 +19,9 @@ const MAX_RITZ_RESIDUAL: f64 = 1e-3;
 /// Values up to this multiple of another may be its double, split by round-off.
 const DOUBLE: f64 = 1.0 + 1e-4;
 
-/// Smallest Im λ/|λ| of an oscillatory mode: ζ < 0.99995.
-const LEAST_IMAGINARY: f64 = 0.01;
+/// Smallest Im λ/|λ| of an oscillatory mode: ζ < 0.9999995; and of one that grows.
+const LEAST_IMAGINARY: f64 = 1e-3;
+const ROUND_OFF: f64 = 1e-6;
 
 /// An eigenpair of (λ² M + λ C + K) φ = 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +38,7 @@ pub struct QuadraticPair {
 /// they exist, and any further converged ones.
 ///
 /// `shift` σ \[1/s\] > 0 should lie below the lowest frequency; rigid-body modes, |λ| < 1e-3 σ, and
-/// overdamped modes, ζ > 0.99995, are omitted.
+/// overdamped modes, ζ > 0.9999995, are omitted.
 ///
 /// # Errors
 /// A singular shifted matrix, no convergence, or entries that are not finite.
@@ -108,8 +109,10 @@ fn nth_size(values: impl Iterator<Item = Complex64>, count: usize) -> f64 {
 /// Whether λ is oscillatory with Im λ > 0, and not a rigid-body mode.
 ///
 /// Gyroscopic coupling and round-off give overdamped modes a small imaginary part, in clusters at −1/β under damping β K.
+/// Modes that grow are kept.
 fn oscillatory(value: Complex64, shift: f64) -> bool {
-    value.im > LEAST_IMAGINARY * value.norm() && value.norm() > 1e-3 * shift
+    let least = if value.re < 0.0 { LEAST_IMAGINARY } else { ROUND_OFF };
+    value.im > least * value.norm() && value.norm() > 1e-3 * shift
 }
 
 /// Eigenpairs over the unknowns of a group.

@@ -19,6 +19,8 @@ const MOST_GAPS: usize = 5;
 const LONGER: usize = 8;
 /// Least step into or out of a gap, over the standard deviation outside: a motion comes to rest, or begins, without one.
 const LEAST_STEP: f64 = 0.02;
+/// The same over the smallest difference of two samples in succession, a step of the converter.
+const LEAST_CONVERTER_STEPS: f64 = 2.5;
 /// Most single samples, and how many times as far from the median as any other they are.
 const MOST_SPIKES: usize = 3;
 const SPIKE_RATIO: f64 = 30.0;
@@ -59,7 +61,11 @@ fn held(record: &[f64]) -> Option<Dropout> {
     runs.sort_by_key(|(_, samples)| std::cmp::Reverse(*samples));
     let usual = runs.get(MOST_GAPS).map_or(1, |(_, samples)| *samples);
     let is_long = |samples: usize| samples >= LEAST_HELD.max(LONGER * usual);
-    let rest = runs.iter().find(|(index, samples)| *index == 0 && is_long(*samples)).map(|_| record[0]);
+    let at_start = |index: usize| index < LEAST_HELD;
+    let rest = runs
+        .iter()
+        .find(|(index, samples)| at_start(*index) && is_long(*samples))
+        .map(|(index, _)| record[*index]);
     let long: Vec<(usize, usize)> =
         runs.iter().copied().take(MOST_GAPS).filter(|(_, samples)| is_long(*samples)).collect();
     let is_outside = |k: usize| !long.iter().any(|(index, samples)| (*index..index + samples).contains(&k));
@@ -75,7 +81,9 @@ fn held(record: &[f64]) -> Option<Dropout> {
     }
     let [low, high] = [f64::min, f64::max].map(|of: fn(f64, f64) -> f64| outside.iter().copied().reduce(of));
     let (low, high) = (low?, high?);
-    let step = LEAST_STEP * deviation(&outside);
+    let differences = record.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|d| *d > 0.0);
+    let converter_step = differences.reduce(f64::min).unwrap_or(0.0);
+    let step = (LEAST_STEP * deviation(&outside)).max(LEAST_CONVERTER_STEPS * converter_step);
     let is_gap = |&(index, samples): &(usize, usize)| {
         let value = record[index];
         let end = index + samples;
@@ -84,7 +92,7 @@ fn held(record: &[f64]) -> Option<Dropout> {
         // At a limit of the channel; a dead sensor of a channel with an offset is far from it.
         let at_limit = (value >= high && value <= high + 0.5 * (high - low))
             || (value <= low && value >= low - 0.5 * (high - low));
-        index > 0 && rest != Some(value) && !at_limit && steps > step
+        !at_start(index) && rest != Some(value) && !at_limit && steps > step
     };
     long.iter().find(|run| is_gap(run)).map(|&(index, samples)| Dropout::Held {
         index,

@@ -365,8 +365,9 @@ pub fn dropout_texts(channel: &SignalChannel) -> Vec<(Code, String)> {
         }
     };
     // A force window leaves zeros behind the pulse of a hammer.
-    let is_window =
-        |found: &Dropout| channel.unit == "N" && matches!(found, Dropout::Held { value: 0.0, .. });
+    let is_window = |found: &Dropout| {
+        channel.unit == "N" && matches!(found, Dropout::Held { value: 0.0, .. } | Dropout::Spikes { .. })
+    };
     dropouts(all).into_iter().filter(|found| !is_window(found)).map(text).collect()
 }
 

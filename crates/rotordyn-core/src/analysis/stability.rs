@@ -19,6 +19,9 @@ pub struct Threshold {
 
 /// Damping ratio below which a mode is unstable, not undamped to round-off.
 pub const UNSTABLE: f64 = -1e-9;
+/// Least MAC of a crossing with the modes of its branch at both ends of a step: a whirling mode has 0.5 with each of the plane
+/// ones at rest.
+const LEAST_MAC: f64 = 0.4;
 
 /// Speeds where Re λ of a tracked branch changes sign, by speed; `crossings`: modes known between the speeds of the diagram.
 ///
@@ -77,10 +80,14 @@ fn between<'a>(
     for crossing in crossings.iter().filter(inside).filter(|crossing| tells(&crossing.mode)) {
         let correlation = |[a, b]: &[&Mode; 2]| {
             let shapes = [Mode::clone(a), Mode::clone(b)];
-            tracker.mac(&shapes, std::slice::from_ref(&crossing.mode)).concat().iter().sum::<f64>()
+            let with_ends = tracker.mac(&shapes, std::slice::from_ref(&crossing.mode)).concat();
+            let is_own = with_ends.iter().all(|mac| *mac > LEAST_MAC);
+            is_own.then(|| with_ends.iter().sum::<f64>())
         };
-        let correlation: Vec<f64> = ends.iter().map(correlation).collect();
-        let own = (0..ends.len()).max_by(|&i, &j| correlation[i].total_cmp(&correlation[j]));
+        let correlation: Vec<Option<f64>> = ends.iter().map(correlation).collect();
+        let size = |k: &usize| correlation[*k].unwrap_or(0.0);
+        // A mode that no branch follows has none.
+        let own = (0..ends.len()).max_by(|i, j| size(i).total_cmp(&size(j))).filter(|k| size(k) > 0.0);
         if let Some(own) = own {
             known[own].push((crossing.speed, &crossing.mode));
         }

@@ -54,7 +54,8 @@ impl TableStyle {
             return Ok(self);
         };
         match (names, width) {
-            (0, 2) if marked => {}
+            // Not a counter before numbers with leading zeros.
+            (0, 2) if marked && !steps_by_one => {}
             // Of many numbers with a decimal comma one has a zero behind it.
             (1, 2) if marked || count < MANY_LINES && !steps_by_one => {}
             (2.., _) if marked && width == 2 * names => {
@@ -141,9 +142,12 @@ pub(super) fn numbers(
         let is_plain = meaning.role == Role::Step || meaning.numerator > meaning.divisor;
         let number =
             value.definite().or_else(|| value.readings().find(fits)).or_else(|| match meaning.role {
+                Role::Rate | Role::Step if is_plain && value.has_point() => {
+                    value.readings().min_by(f64::total_cmp)
+                }
                 _ if sign.is_some() => value.with(sign?),
                 Role::Count => value.readings().max_by(f64::total_cmp),
-                Role::Rate | Role::Step if !(is_plain && value.has_point()) => None,
+                Role::Rate | Role::Step => None,
                 _ => value.readings().min_by(f64::total_cmp),
             });
         if let Some(number) = number {

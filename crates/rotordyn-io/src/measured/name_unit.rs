@@ -47,7 +47,8 @@ pub(crate) fn split(name: &str) -> Option<(&str, &str, Option<SiUnit>)> {
         let fits = |si: &SiUnit| match mark {
             // "a / m/s²" and "a/g", as ISO 80000-1 has it, but not the last part of a path.
             "/" => !name[..at].contains('/'),
-            "," => true,
+            // Not directions: "DE, V".
+            "," => unit == "g" || unit.chars().count() > 1,
             "_" => is_composed(unit),
             _ => is_composed(unit) || is_word(base, unit, si),
         };

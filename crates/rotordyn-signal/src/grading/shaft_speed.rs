@@ -116,13 +116,13 @@ fn family(
 ) -> Option<RecordSpeed> {
     let step = lines.step;
     let count = HARMONICS.min((lines.end() / (stated * (1.0 + range))) as usize);
+    let Shared { of_bearing, of_mains } = foreign.shared(count);
     let score = |speed: f64| {
-        let of_bearing = |bearing: bool| {
-            let numbers = (1..=count).filter(move |n| foreign.bearing_has(*n) == bearing);
-            let places = numbers.map(|n| n as f64 * speed).filter(|place| !foreign.mains_have(*place));
-            joint(places.map(|place| limited(lines.evidence(place))))
+        let sum = |bearing: bool| {
+            let numbers = (1..=count).filter(|n| of_bearing.contains(n) == bearing && !of_mains.contains(n));
+            joint(numbers.map(|n| limited(lines.evidence(n as f64 * speed))))
         };
-        of_bearing(false) + OF_BEARING * of_bearing(true)
+        sum(false) + OF_BEARING * sum(true)
     };
     let trials = (range * stated * HARMONICS as f64 / step).ceil() as i64;
     let coarse = best_of(stated, step / HARMONICS as f64, trials, score);
@@ -133,7 +133,7 @@ fn family(
         return None;
     }
     // A family that the bearing explains is no shaft.
-    let free: Vec<usize> = standing.iter().copied().filter(|n| !foreign.bearing_has(*n)).collect();
+    let free: Vec<usize> = standing.iter().copied().filter(|n| !of_bearing.contains(n)).collect();
     if free.len() < LEAST_OWN {
         return None;
     }
@@ -143,7 +143,7 @@ fn family(
         return None;
     }
     // Lines of the mains may be those of the shaft; their places say nothing of its speed.
-    let own = |n: &usize| !foreign.mains_have(*n as f64 * coarse) && !foreign.bearing_has(*n);
+    let own = |n: &usize| !of_mains.contains(n) && !of_bearing.contains(n);
     if standing.iter().filter(|n| own(n)).count() >= FAMILY {
         standing.retain(own);
     }
@@ -195,6 +195,12 @@ fn joint(values: impl Iterator<Item = f64> + Clone) -> f64 {
     values.map(|value| value.min(second)).sum()
 }
 
+/// Numbers of harmonics whose places others may have too.
+struct Shared {
+    of_bearing: Vec<usize>,
+    of_mains: Vec<usize>,
+}
+
 /// What else may have lines at harmonics of a shaft.
 struct Foreign<'a> {
     step: f64,
@@ -206,11 +212,24 @@ struct Foreign<'a> {
 }
 
 impl Foreign<'_> {
-    /// Whether mains have a harmonic at a frequency, within two bins and 0.03 %.
-    fn mains_have(&self, frequency: f64) -> bool {
+    /// The shared ones of the first harmonics; none where too few would be left to tell the speed, as at the speed of the mains.
+    fn shared(&self, count: usize) -> Shared {
+        let leaves_family = |found: &Vec<usize>| count >= FAMILY + found.len();
+        let bearing: Vec<usize> = (1..=count).filter(|n| self.bearing_has(*n)).collect();
+        let of_bearing = Some(bearing).filter(leaves_family).unwrap_or_default();
+        let mains: Vec<usize> =
+            (1..=count).filter(|n| self.mains_have(*n) && !of_bearing.contains(n)).collect();
+        let leave_family = |mains: &Vec<usize>| count >= FAMILY + mains.len() + of_bearing.len();
+        let of_mains = Some(mains).filter(leave_family).unwrap_or_default();
+        Shared { of_bearing, of_mains }
+    }
+
+    /// Whether mains have a harmonic at n times a speed in the range, within two bins.
+    fn mains_have(&self, n: usize) -> bool {
+        let place = n as f64 * self.speed;
         MAINS.iter().any(|rate| {
-            let number = (frequency / rate).round();
-            number >= 1.0 && (frequency - number * rate).abs() <= 2.0 * self.step + 3e-4 * frequency
+            let number = (place / rate).round();
+            number >= 1.0 && (place - number * rate).abs() <= 2.0 * self.step + self.range * place
         })
     }
 

@@ -313,6 +313,9 @@ impl<'a, T: Tangents> Search<'a, T> {
         if nm < na.min(nb) || nm > na.max(nb) {
             return true;
         }
+        if na == nm && a.hides_crossing(middle, order) || nm == nb && middle.hides_crossing(b, order) {
+            return true;
+        }
         let near = |index: usize| {
             let (Some(p), Some(q), Some(r)) =
                 (a.gap(index, order), middle.gap(index, order), b.gap(index, order))

@@ -7,6 +7,8 @@ use rotordyn_linalg::Complex64;
 pub const HEAVY_REACH: f64 = 3.0;
 /// Damping ratio of a heavily damped mode.
 const HEAVY_DAMPING: f64 = 0.3;
+/// Range of Im λ/|λ| about 1/[`HEAVY_REACH`]: ζ from 0.85 to 0.99.
+const LIMIT_RANGE: [f64; 2] = [0.14, 0.53];
 /// Relative distance of two eigenvalues from which each has a shape of its own.
 const LEAST_GAP: f64 = 1e-5;
 
@@ -27,15 +29,36 @@ pub struct Spectrum {
     pub speed: f64,
     pub values: Vec<Complex64>,
     pub labels: Vec<String>,
+    /// Whether the damping of a mode is near the limit from which on it does not take part: it may do so at the next speed.
+    has_mode_at_limit: bool,
 }
 
 impl Spectrum {
     pub fn new(speed: f64, modes: impl IntoIterator<Item = (Complex64, String)>) -> Self {
-        let mut modes: Vec<(Complex64, String)> =
-            modes.into_iter().filter(|(value, _)| takes_part(*value)).collect();
+        let mut modes: Vec<(Complex64, String)> = modes.into_iter().collect();
+        let is_at_limit = |value: &Complex64| {
+            let ratio = value.im / value.norm();
+            LIMIT_RANGE[0] < ratio && ratio < LIMIT_RANGE[1]
+        };
+        let has_mode_at_limit = modes.iter().any(|(value, _)| is_at_limit(value));
+        modes.retain(|(value, _)| takes_part(*value));
         modes.sort_by(|a, b| a.0.im.total_cmp(&b.0.im));
         let (values, labels) = modes.into_iter().unzip();
-        Self { speed, values, labels }
+        Self { speed, values, labels, has_mode_at_limit }
+    }
+
+    /// Whether a mode lies below an order line here and above it at another speed, or the other way round, while modes may come to
+    /// take part or cease to: the number of those below the line may then be the same at both.
+    pub fn hides_crossing(&self, other: &Self, order: f64) -> bool {
+        let crosses = |value: &Complex64| {
+            let distance = |b: &Complex64| (b - value).norm();
+            let same = other.values.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            same.is_some_and(|same| {
+                let is_below = [(value, self.speed), (same, other.speed)].map(|(v, w)| v.im < order * w);
+                is_below[0] != is_below[1]
+            })
+        };
+        (self.has_mode_at_limit || other.has_mode_at_limit) && self.values.iter().any(crosses)
     }
 
     /// Number of modes below an order line.
