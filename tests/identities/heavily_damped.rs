@@ -39,11 +39,13 @@ fn narrow_table(speeds: &str, stiffness: &str) -> Model {
     model(&format!("{rotor}{}{}", bearing("A", "k_zz = \"1e6 N/m\""), bearing("B", "")), &[])
 }
 
-/// Number of modes below ω = n Ω at every speed, those with |λ| above `reach` times their damped frequency left out.
-fn counts(machine: &Machine, speeds: &[f64], order: f64, reach: f64) -> Vec<usize> {
+/// Number of modes below ω = n Ω at every speed, those with |λ| above `reach` times their damped frequency or below `least`
+/// \[rad/s\] left out.
+fn counts(machine: &Machine, speeds: &[f64], order: f64, [reach, least]: [f64; 2]) -> Vec<usize> {
     let below = |speed: &f64| {
         let modes = machine.modal(&ModalStudy { speeds: vec![*speed], modes: 60 }).unwrap().remove(0).modes;
-        let values = modes.iter().map(|m| m.eigenvalue).filter(|v| reach * v.im > v.norm());
+        let values =
+            modes.iter().map(|m| m.eigenvalue).filter(|v| reach * v.im > v.norm() && v.norm() > least);
         values.filter(|v| v.im < order * speed).count()
     };
     speeds.par_iter().map(below).collect()
@@ -53,13 +55,13 @@ fn counts(machine: &Machine, speeds: &[f64], order: f64, reach: f64) -> Vec<usiz
 /// more by pairs.
 fn assert_complete(name: &str, machine: &Machine, top: f64, order: f64, found: &[f64]) {
     let speeds: Vec<f64> = (0..=600).map(|k| top * f64::from(k) / 600.0).collect();
-    let [counts, of_fewer] = [3.0, 2.0].map(|reach| counts(machine, &speeds, order, reach));
+    let [counts, of_fewer] = [[3.0, 0.2], [2.0, 0.5]].map(|limits| counts(machine, &speeds, order, limits));
     let mut changes = 0;
     for (range, (count, fewer)) in speeds.windows(2).zip(counts.windows(2).zip(of_fewer.windows(2))) {
         let listed = found.iter().filter(|speed| (range[0]..range[1]).contains(*speed)).count();
         let change = count[0].abs_diff(count[1]);
         if change != fewer[0].abs_diff(fewer[1]) {
-            // The damping of a mode passes one of the limits.
+            // The damping of a mode or its frequency passes one of the limits.
             continue;
         }
         changes += change;
@@ -180,7 +182,7 @@ fn crossings_within_a_narrow_part_of_a_table_are_found() {
         let top = 6000.0 * RPM;
         let found = critical(&machine, top, 1.0);
         let narrow: Vec<f64> = (0..400).map(|k| (1375.0 + 0.15 * f64::from(k)) * RPM).collect();
-        let counts = counts(&machine, &narrow, 1.0, 3.0);
+        let counts = counts(&machine, &narrow, 1.0, [3.0, 0.2]);
         let changes: usize = counts.windows(2).map(|pair| pair[0].abs_diff(pair[1])).sum();
         let listed = found.iter().filter(|speed| (narrow[0]..narrow[399]).contains(*speed)).count();
         assert!(changes >= 4 && listed == changes, "{name}: {listed} of {changes}: {found:?}");
@@ -212,6 +214,27 @@ fn a_mode_that_is_unstable_between_the_speeds_of_a_diagram_is_named() {
     let critical = machine.critical(&machine.model.studies.critical.clone().unwrap()).unwrap();
     let results = Results { critical: Some(critical), ..Results::default() };
     assert!(named(machine.warnings(&results, &study.speeds)));
+}
+
+/// A rotor that a negative stiffness pushes away, turned a little by cross coupling: it grows almost without turning.
+#[test]
+fn a_mode_that_grows_is_kept_however_slowly_it_turns() {
+    let mut model = narrow_table("0, 6000", "5e5, 5e5");
+    model.damping = Default::default();
+    for (site, stiffness) in model.bearings.iter_mut().zip([-1e6, 3e6]) {
+        let rotordyn::bearing::Bearing::Linear(bearing) = &mut site.bearing else { panic!("a linear one") };
+        for row in &mut bearing.table {
+            (row.stiffness[0][0], row.stiffness[1][1]) = (stiffness, stiffness);
+            (row.stiffness[0][1], row.stiffness[1][0]) = (1e3, -1e3);
+        }
+    }
+    let machine = Machine::new(model).unwrap();
+    let modes = machine.modal(&ModalStudy { speeds: vec![3000.0 * RPM], modes: 6 }).unwrap().remove(0).modes;
+    assert!(
+        modes.iter().any(|mode| mode.zeta() < -0.99),
+        "{:?}",
+        modes.iter().map(|m| m.eigenvalue).collect::<Vec<_>>()
+    );
 }
 
 /// Undamped along y at rest, damped as soon as it turns: not unstable below any speed.

@@ -223,6 +223,20 @@ mod tests {
         assert_eq!(dropouts(&shocks), []);
     }
 
+    /// A vibration that decays into the last step of the converter, behind a first sample at another value too.
+    #[test]
+    fn decays_into_the_last_step_of_the_converter_are_no_gap() {
+        for counts in [20.0, 100.0, 200.0, 400.0] {
+            let decay = |k: usize| match k {
+                0 => 1.0,
+                1..2000 => 0.0,
+                _ => (counts * (-0.002 * (k - 2000) as f64).exp() * (0.5 * k as f64).sin()).round(),
+            };
+            let record: Vec<f64> = (0..16_000).map(decay).collect();
+            assert_eq!(dropouts(&record), [], "{counts}");
+        }
+    }
+
     /// Few steps of the converter, limits, square waves, doubled samples, pulses of a tacho.
     #[test]
     fn values_that_repeat_by_nature_are_no_gap() {

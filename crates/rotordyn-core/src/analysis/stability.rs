@@ -19,8 +19,8 @@ pub struct Threshold {
 
 /// Damping ratio below which a mode is unstable, not undamped to round-off.
 pub const UNSTABLE: f64 = -1e-9;
-/// Least MAC of a crossing with the modes of its branch at both ends of a step: a whirling mode has 0.5 with each of the plane
-/// ones at rest.
+/// Least MAC of a crossing with the mode of its branch at the nearer of both ends of a step: a whirling mode has 0.5 with each of
+/// the plane ones at rest.
 const LEAST_MAC: f64 = 0.4;
 
 /// Speeds where Re λ of a tracked branch changes sign, by speed; `crossings`: modes known between the speeds of the diagram.
@@ -81,7 +81,7 @@ fn between<'a>(
         let correlation = |[a, b]: &[&Mode; 2]| {
             let shapes = [Mode::clone(a), Mode::clone(b)];
             let with_ends = tracker.mac(&shapes, std::slice::from_ref(&crossing.mode)).concat();
-            let is_own = with_ends.iter().all(|mac| *mac > LEAST_MAC);
+            let is_own = with_ends.iter().any(|mac| *mac > LEAST_MAC);
             is_own.then(|| with_ends.iter().sum::<f64>())
         };
         let correlation: Vec<Option<f64>> = ends.iter().map(correlation).collect();

@@ -24,13 +24,13 @@ pub struct FrfResult {
     /// Undamped modes, at which the FRFs are infinite, by frequency \[Hz\].
     pub undamped: Vec<UndampedPeak>,
     /// The least damped of the modes up to the highest frequency, and of the lowest twelve; `None` if they are not known, as
-    /// in results from a file.
-    #[serde(skip)]
+    /// in results of earlier versions.
+    #[serde(default)]
     pub least_damped: Option<LeastDampedMode>,
 }
 
 /// The mode with the smallest damping ratio.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LeastDampedMode {
     pub label: String,
     /// ζ.

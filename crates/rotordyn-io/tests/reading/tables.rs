@@ -230,3 +230,17 @@ fn numbers_and_line_ends_of_other_programs() {
     let found = read("t.csv", text.as_bytes(), None).unwrap();
     assert_eq!((names(&found), found.records[0].values.len()), (vec!["x"], 400));
 }
+
+/// Nobody writes groups of thousands of kHz, and no direction is a unit.
+#[test]
+fn plain_numbers_and_directions_stay_what_they_are() {
+    let found = table_of("fs [kHz]: 51.200\nx;y\n", |_, x| format!("{};{}", comma(x), comma(-x)));
+    assert_eq!(rate(&found, "x"), 51_200.0);
+    let found = table_of("fs: 1000\n\"DE, V\";\"DE, N\"\n", |_, x| format!("{x:.5};{:.5}", -x));
+    assert_eq!(names(&found), ["DE, V", "DE, N"]);
+    // A counter before whole numbers with leading zeros is no whole part of them.
+    let text: String =
+        (0..400).map(|k| format!("{k:05},{:05}\n", 300 + integer(vibration(k)).abs())).collect();
+    let found = read("t.csv", text.as_bytes(), Some(1000.0)).unwrap();
+    assert!(found.records.iter().all(|record| values(&found, &record.name)[5] >= 5.0));
+}

@@ -167,3 +167,26 @@ fn invalid_speeds_are_errors() {
         assert!(text.contains(words), "{text}");
     }
 }
+
+/// A shaft near the speed of the mains: every harmonic may be the mains' or the shaft's, and the lines stand.
+#[test]
+fn a_shaft_near_the_speed_of_the_mains_is_found() {
+    let bearing = DefectFrequencies { shaft: 1.0, cage: 0.398, outer: 3.585, inner: 5.415, ball: 2.357 };
+    for (stated, speed) in
+        [(50.0, 50.0), (60.0, 60.0), (25.0, 24.98), (30.0, 29.95), (50.0, 49.75), (50.0, 49.9)]
+    {
+        let scaled = DefectFrequencies {
+            shaft: stated,
+            cage: stated * bearing.cage,
+            outer: stated * bearing.outer,
+            inner: stated * bearing.inner,
+            ball: stated * bearing.ball,
+        };
+        for bearing in [None, Some(&scaled)] {
+            let found = shaft_speed(&machine(7, speed), RATE, stated, 0.02, bearing).unwrap();
+            let SpeedFinding::Found(found) = found else { panic!("{speed}: {found:?}") };
+            let error = (found.speed - speed).abs();
+            assert!(error < 4.0 * found.uncertainty.max(1e-3 * speed / 10.0), "{speed}: {found:?}");
+        }
+    }
+}
