@@ -28,6 +28,8 @@ const HANN_DEVIATION: f64 = 0.487;
 const FAMILY: usize = 3;
 /// Weight of harmonics where the bearing may have lines, and how many others have to stand.
 const OF_BEARING: f64 = 0.15;
+/// Weight of what harmonics add where mains may have lines.
+const OF_MAINS: f64 = 0.7;
 const LEAST_OWN: usize = 2;
 /// Harmonics of the bearing's lines, and their slip.
 const BEARING_HARMONICS: u32 = 3;
@@ -118,11 +120,15 @@ fn family(
     let count = HARMONICS.min((lines.end() / (stated * (1.0 + range))) as usize);
     let Shared { of_bearing, of_mains } = foreign.shared(count);
     let score = |speed: f64| {
-        let sum = |bearing: bool| {
-            let numbers = (1..=count).filter(|n| of_bearing.contains(n) == bearing && !of_mains.contains(n));
+        let sum = |kept: &dyn Fn(&usize) -> bool| {
+            let numbers = (1..=count).filter(|n| kept(n));
             joint(numbers.map(|n| limited(lines.evidence(n as f64 * speed))))
         };
-        sum(false) + OF_BEARING * sum(true)
+        let without_mains = sum(&|n| !of_bearing.contains(n) && !of_mains.contains(n));
+        let with_mains = sum(&|n| !of_bearing.contains(n));
+        without_mains
+            + OF_MAINS * (with_mains - without_mains).max(0.0)
+            + OF_BEARING * sum(&|n| of_bearing.contains(n))
     };
     let trials = (range * stated * HARMONICS as f64 / step).ceil() as i64;
     let coarse = best_of(stated, step / HARMONICS as f64, trials, score);
@@ -143,7 +149,7 @@ fn family(
         return None;
     }
     // Lines of the mains may be those of the shaft; their places say nothing of its speed.
-    let own = |n: &usize| !of_mains.contains(n) && !of_bearing.contains(n);
+    let own = |n: &usize| !foreign.is_of_mains(*n as f64 * coarse, 3e-4) && !of_bearing.contains(n);
     if standing.iter().filter(|n| own(n)).count() >= FAMILY {
         standing.retain(own);
     }
@@ -224,12 +230,16 @@ impl Foreign<'_> {
         Shared { of_bearing, of_mains }
     }
 
-    /// Whether mains have a harmonic at n times a speed in the range, within two bins.
+    /// Whether mains have a harmonic at n times a speed in the range.
     fn mains_have(&self, n: usize) -> bool {
-        let place = n as f64 * self.speed;
+        self.is_of_mains(n as f64 * self.speed, self.range)
+    }
+
+    /// Whether mains have a harmonic at a frequency, within two bins and a share of it.
+    fn is_of_mains(&self, frequency: f64, share: f64) -> bool {
         MAINS.iter().any(|rate| {
-            let number = (place / rate).round();
-            number >= 1.0 && (place - number * rate).abs() <= 2.0 * self.step + self.range * place
+            let number = (frequency / rate).round();
+            number >= 1.0 && (frequency - number * rate).abs() <= 2.0 * self.step + share * frequency
         })
     }
 
