@@ -11,6 +11,8 @@ const RPM: f64 = TAU / 60.0;
 const BETA: &str = include_str!("../data/damped/damping_beta.toml");
 const INTERNAL: &str = include_str!("../data/damped/internal_damping.toml");
 const UNSTABLE: &str = include_str!("../data/damped/unstable_between.toml");
+const AT_LIMIT: &str = include_str!("../data/damped/damping_passes_limit.toml");
+const AXIAL: &str = include_str!("../data/damped/uncoupled_axial.toml");
 const JEFFCOTT: &str = include_str!("../../models/jeffcott.toml");
 
 fn model(text: &str, set: &[(&str, &str)]) -> Model {
@@ -214,6 +216,28 @@ fn a_mode_that_is_unstable_between_the_speeds_of_a_diagram_is_named() {
     let critical = machine.critical(&machine.model.studies.critical.clone().unwrap()).unwrap();
     let results = Results { critical: Some(critical), ..Results::default() };
     assert!(named(machine.warnings(&results, &study.speeds)));
+}
+
+/// A mode comes to have a damping ratio above 0.94 in the step in which another crosses the line: their number stays.
+#[test]
+fn a_crossing_beside_a_mode_that_ceases_to_take_part_is_found() {
+    let machine = Machine::new(model(AT_LIMIT, &[])).unwrap();
+    let found = critical(&machine, machine.model.studies.critical.clone().unwrap().max_speed, 1.0);
+    let axial =
+        machine.modal(&ModalStudy { speeds: vec![6037.15 * RPM], modes: 20 }).unwrap().remove(0).modes;
+    assert!(axial.iter().any(|mode| (mode.omega() / (6037.15 * RPM) - 1.0).abs() < 1e-6));
+    assert!(found.iter().any(|speed| (speed / RPM - 6037.15).abs() < 0.01), "{found:?}");
+}
+
+/// A crossing of a mode that no branch follows belongs to none.
+#[test]
+fn an_uncoupled_mode_gives_no_threshold_to_others() {
+    let machine = Machine::new(model(AXIAL, &[])).unwrap();
+    let study = machine.model.studies.campbell.clone().unwrap();
+    let found = machine.campbell(&study).unwrap();
+    let rpm: Vec<f64> = found.thresholds.iter().map(|t| t.speed / RPM).collect();
+    // Without the speeds of the diagram, 5364 and 10729 rpm.
+    assert!(rpm.len() == 2 && (rpm[0] - 718.3).abs() < 0.1 && (rpm[1] - 11967.3).abs() < 0.1, "{rpm:?}");
 }
 
 /// A rotor that a negative stiffness pushes away, turned a little by cross coupling: it grows almost without turning.

@@ -55,7 +55,7 @@ fn motion(
         if k > skip && (k - skip).is_multiple_of(thin) {
             check_divergence(system, &state).unwrap();
             out.iter_mut()
-                .zip(system.channels.iter())
+                .zip(system.channels.list())
                 .for_each(|(out, channel)| out.push(channel.read(state.motion())));
         }
     }

@@ -209,13 +209,10 @@ fn array(name: &str, bytes: &[u8], budget: &Budget) -> Result<Member, Fault> {
         "m" => Some("durations, timedelta64: store seconds"),
         _ => None,
     };
-    let stamps =
-        if dates.is_some() { times_of(&bytes[end..], width, big, &shape, budget, name)? } else { None };
-    if let Some(values) = stamps {
-        return Ok(Member::Numbers(Array { name: name.to_owned(), shape, data: Data::Real(values) }));
-    }
     if let Some(reason) = dates {
-        return Ok(Member::Other(reason));
+        let times = times_of(&bytes[end..], width, big, &shape, budget, name)?;
+        let found = |values| Array { name: name.to_owned(), shape, data: Data::Real(values) };
+        return Ok(times.map_or(Member::Other(reason), |values| Member::Numbers(found(values))));
     }
     let width: usize = if width.is_empty() { 1 } else { width.parse().map_err(|_| DAMAGED_HEADER)? };
     let element = if kind == "U" { width.checked_mul(4).ok_or(DAMAGED_HEADER)? } else { width };

@@ -40,6 +40,6 @@ pub(crate) fn section(given: &[GivenValue], defaults: &[DefaultValue], text: &st
 fn meaning(path: &str) -> String {
     let plain: String =
         path.split('[').map(|part| part.split_once(']').map_or(part, |(_, rest)| rest)).collect();
-    let found = keys::find(&plain).ok().and_then(|found| found.keys.into_iter().next());
+    let found = keys::describe_key(&plain).ok().flatten();
     found.map_or(String::new(), |key| key.meaning.into())
 }

@@ -31,8 +31,6 @@ pub enum BandRule {
     Lines,
 }
 
-/// Frequency up to which lines of the mains are looked for \[Hz\].
-const HIGHEST_TONE: f64 = 1100.0;
 /// 10/ln 10: evidence, a power ratio, in dB.
 const DB_PER_NEPER_OF_EVIDENCE: f64 = 4.342944819032518;
 
@@ -95,7 +93,7 @@ pub fn diagnose(
     let tones = match rotation {
         ShaftRotation::ConstantSpeed => {
             let spectrum = amplitude_spectrum(record, sample_rate, WindowKind::Hann, Level::Peak)?;
-            machine_tones(&spectrum.up_to(HIGHEST_TONE.max(31.0 * rates.shaft)), rates.shaft)
+            machine_tones(&spectrum, rates.shaft)
         }
         // Lines of the mains smear over the shaft's angle.
         ShaftRotation::Angle(_) => Vec::new(),

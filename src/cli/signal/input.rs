@@ -364,11 +364,11 @@ pub fn dropout_texts(channel: &SignalChannel) -> Vec<(Code, String)> {
             (Code::RecordSpike, format!("`{name}` has {samples} {far}: {value} at {at}"))
         }
     };
-    // A force window leaves zeros behind the pulse of a hammer.
-    let is_window = |found: &Dropout| {
+    // The pulse of a hammer may last a sample, and a force window leaves zeros behind it.
+    let is_of_hammer = |found: &Dropout| {
         channel.unit == "N" && matches!(found, Dropout::Held { value: 0.0, .. } | Dropout::Spikes { .. })
     };
-    dropouts(all).into_iter().filter(|found| !is_window(found)).map(text).collect()
+    dropouts(all).into_iter().filter(|found| !is_of_hammer(found)).map(text).collect()
 }
 
 /// Sample range between two times.

@@ -68,6 +68,7 @@ fn zero_frequency_shapes(mass: &SparseMatrix, stiffness: &SparseMatrix) -> Resul
     let layout = BandLayout::new(&[mass, stiffness]);
     let values = layout.scatter(stiffness).iter().zip(layout.scatter(mass)).map(|(k, m)| k + m).collect();
     let factors = layout.factor::<f64>(values).map_err(|pivot| format!("K + M is singular: {pivot:?}"))?;
+    // Most machines have none, or the rotation about z.
     let mut width = 4.min(size);
     loop {
         // Start vectors with a component in every mode.

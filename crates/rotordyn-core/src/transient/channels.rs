@@ -59,18 +59,6 @@ impl Channels {
         Self { list, groups }
     }
 
-    pub fn len(&self) -> usize {
-        self.list.len()
-    }
-
-    pub fn is_empty(&self) -> bool {
-        self.list.is_empty()
-    }
-
-    pub fn iter(&self) -> std::slice::Iter<'_, Channel> {
-        self.list.iter()
-    }
-
     /// All of them, in order.
     pub fn list(&self) -> &[Channel] {
         &self.list

@@ -135,7 +135,7 @@ impl RunSnapshot {
     }
 
     fn fits(&self, system: &System, integrator: Integrator) -> bool {
-        let means = if system.has_bodies() { system.channels.len() } else { 0 };
+        let means = if system.has_bodies() { system.channels.list().len() } else { 0 };
         self.state.fits(system)
             && self.stepper.fits(system, integrator)
             && self.balance.fits(system)
@@ -321,7 +321,7 @@ impl Run {
                 system,
                 index,
                 state,
-                channels: &steps[steps.len() - system.channels.len()..],
+                channels: &steps[steps.len() - system.channels.list().len()..],
                 steps,
                 steps_per_sample: if stepper.is_adaptive() { 1 } else { grid.calls },
                 divided: Divided { parts: defects.parts(), is_divided, values: parts, jumps },
@@ -404,8 +404,9 @@ impl Run {
 /// its accelerations plus h (γ − ½) of their change, which adds up to nothing but where h changes from h₀ to h₁: together
 /// v₁ − v₀ + ½ h₁ (a₁ − a₀) + (γ − ½)(h₀ a₀ − h₁ a₁) for an acceleration, ½ h₁ (v₁ − v₀) + (β − ½γ)(h₀² a₀ − h₁² a₁) for a velocity.
 fn change_step(system: &System, state: &mut State, stepper: &Stepper, [h0, h1]: [f64; 2]) -> Vec<f64> {
+    let channels = system.channels.list();
     let read = |state: &State| -> Vec<[f64; 2]> {
-        system.channels.iter().map(|channel| channel.velocity_and_acceleration(state.motion())).collect()
+        channels.iter().map(|channel| channel.velocity_and_acceleration(state.motion())).collect()
     };
     let before = read(state);
     stepper.fit_inertias(system, state, h1);
@@ -416,7 +417,7 @@ fn change_step(system: &System, state: &mut State, stepper: &Stepper, [h0, h1]: 
         Quantity::Velocity => 0.5 * h1 * (v1 - v0) + beta * (h0 * h0 * a0 - h1 * h1 * a1),
         Quantity::Acceleration => v1 - v0 + 0.5 * h1 * (a1 - a0) + gamma * (h0 * a0 - h1 * a1),
     };
-    system.channels.iter().zip(before.into_iter().zip(after)).map(impulse).collect()
+    channels.iter().zip(before.into_iter().zip(after)).map(impulse).collect()
 }
 
 /// Means of the channels over a sampling interval, by the trapezoidal rule over the steps.

@@ -19,11 +19,14 @@ const STANDS: f64 = 9.0;
 const SKIRT: f64 = 3.0;
 const LEAST_HALF_WIDTH: usize = 4;
 const RELATIVE_HALF_WIDTH: f64 = 0.01;
+
 /// Bins of the standing lines of shaft and mains in a record's amplitude spectrum (Hann).
 ///
 /// `shaft` \[Hz\]; 1x to 3x are found within ± 2 % of it.
 pub(crate) fn machine_tones(spectrum: &Spectrum, shaft: f64) -> Vec<Range<usize>> {
-    let lines = LineSpectrum::new(spectrum, shaft, Some(1.0), None);
+    // And the background about the highest.
+    let end = (1.1 * MAINS_END).max((SHAFT_ORDERS + 1) as f64 * shaft);
+    let lines = LineSpectrum::new(&spectrum.up_to(end), shaft, Some(1.0), None);
     let step = lines.step;
     let orders = (1..=SHAFT_ORDERS).map(|n| {
         let place = n as f64 * shaft;

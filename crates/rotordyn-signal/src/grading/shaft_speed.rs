@@ -61,13 +61,13 @@ pub enum SpeedFinding {
 
 /// Shaft speed from the harmonics 1x to 10x in a record's spectrum, within ± `range` of the stated speed.
 ///
-/// Maximises Σ evidence(n f) over f, large evidence counted by its logarithm, then Σ ln(1 + q(n f)) between the
-/// bins, q = A² over the noise's. Then f = Σ w f_n/n over the harmonics' own maxima f_n, w = (n/σ_n)² and
+/// Maximises Σ evidence(n f) over f, large evidence counted by its root, none more than the second highest, then
+/// Σ ln(1 + q(n f)) between the bins, q = A² over the noise's. Then f = Σ w f_n/n over the harmonics' own maxima f_n, w = (n/σ_n)² and
 /// σ_n = 0.487 Δf/√q_n, which is 1.53 times the Cramér–Rao bound: the price of the Hann window. `record`
 /// \[any unit\], `sample_rate` \[Hz\], `stated` \[rev/s\], `range` relative, 0 to 0.2. Where the f_n/n scatter more than
-/// noise explains the uncertainty is that of their scatter. Where mains have lines a harmonic says nothing of the speed;
-/// where the `bearing` (at the stated speed) may have them it counts for a seventh, and two others have to stand; a
-/// family of even harmonics alone is one of twice the speed. Errors: NaN, a speed or range out of range, fewer than
+/// noise explains the uncertainty is that of their scatter. Where mains may have lines a harmonic counts less, and where
+/// they have them it says nothing of the exact speed; where the `bearing` (at the stated speed) may have them it counts
+/// for a seventh, and two others have to stand; a family of even harmonics alone is one of twice the speed. Errors: NaN, a speed or range out of range, fewer than
 /// ten revolutions. Source for σ_n: Rife and Boorstyn, Bell Syst. Tech. J. 55 (1976).
 pub fn shaft_speed(
     record: &[f64],
