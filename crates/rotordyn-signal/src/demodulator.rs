@@ -48,7 +48,7 @@ impl Demodulator {
     ///
     /// Shifting the band to zero frequency leaves |z| as it is, so the inverse transform needs only the
     /// band's bins; it has the record's duration, so that envelope spectra have the record's bins.
-    fn envelope(&self, band: (f64, f64)) -> (Vec<f64>, f64) {
+    pub fn envelope(&self, band: (f64, f64)) -> (Vec<f64>, f64) {
         let bins = self.bins_of(band);
         let mut data = vec![Complex::ZERO; self.length(&bins)];
         data[..bins.len()].copy_from_slice(&self.bins[bins]);

@@ -1,5 +1,8 @@
 //! Bearing diagnosis of a record: band selection, envelope analysis, bearing defect frequencies.
 
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -108,7 +111,10 @@ pub fn diagnose(
             let score = |band: (f64, f64)| {
                 let spectrum = match rotation {
                     ShaftRotation::ConstantSpeed => demodulator.envelope_spectrum(band, end),
-                    ShaftRotation::Angle(_) => clock.spectrum(&envelope(record, sample_rate, band)?)?,
+                    ShaftRotation::Angle(_) => {
+                        let (envelope, rate) = demodulator.envelope(band);
+                        clock.spectrum_at(&envelope, rate)?
+                    }
                 };
                 let unit = clock.hz_per_unit();
                 let found = BandGrading::new(&spectrum, rates, settings, unit, without_tones(band).as_ref());
@@ -224,23 +230,63 @@ fn score_bank(
 }
 
 /// Domain of the envelope spectrum: time (Hz) or shaft angle (orders).
-enum SpectrumDomain {
-    Time { rate: f64 },
-    Angle { resampler: AngleResampler, longest: usize, fastest: f64 },
+enum SpectrumDomain<'a> {
+    Time {
+        rate: f64,
+    },
+    Angle {
+        theta: &'a [f64],
+        turns: TurningPart,
+        fastest: f64,
+        slower: Mutex<HashMap<usize, Arc<TurningPart>>>,
+    },
 }
 
-impl SpectrumDomain {
-    fn new(samples: usize, rate: f64, rotation: ShaftRotation, top_order: f64) -> Result<Self, SignalError> {
+/// The longest stretch of a record in which the shaft turns.
+struct TurningPart {
+    resampler: AngleResampler,
+    index: usize,
+}
+
+impl TurningPart {
+    fn new(theta: &[f64], rate: f64, per_turn: usize) -> Result<Self, SignalError> {
+        let resampler = AngleResampler::new(theta, rate, per_turn, MIN_SPEED)?;
+        let parts = resampler.parts();
+        let index = (0..parts.len()).max_by_key(|&k| parts[k].times.len()).expect("at least one part");
+        Ok(Self { resampler, index })
+    }
+
+    fn per_turn(&self) -> usize {
+        self.resampler.samples_per_revolution()
+    }
+
+    /// Times of the outputs \[s\].
+    fn times(&self) -> &[f64] {
+        &self.resampler.parts()[self.index].times
+    }
+
+    /// Amplitude spectrum of an envelope minus its mean over orders.
+    fn spectrum(&self, envelope: &[f64]) -> Result<Spectrum, SignalError> {
+        let mut parts = self.resampler.resample(&[envelope])?;
+        deviation_spectrum(parts.swap_remove(self.index).swap_remove(0), self.per_turn() as f64)
+    }
+}
+
+impl<'a> SpectrumDomain<'a> {
+    fn new(
+        samples: usize,
+        rate: f64,
+        rotation: ShaftRotation<'a>,
+        top_order: f64,
+    ) -> Result<Self, SignalError> {
         let ShaftRotation::Angle(theta) = rotation else { return Ok(SpectrumDomain::Time { rate }) };
         check_same_length("shaft angle", theta.len(), "the record", samples)?;
         let per_turn = (SAMPLES_PER_ORDER * top_order).ceil().clamp(16.0, 1e5) as usize;
-        let resampler = AngleResampler::new(theta, rate, per_turn, MIN_SPEED)?;
-        let parts = resampler.parts();
-        let longest = (0..parts.len()).max_by_key(|&k| parts[k].times.len()).expect("at least one part");
+        let turns = TurningPart::new(theta, rate, per_turn)?;
         // Averaged over whole revolutions, so that jitter of the angle does not raise the speed.
-        let turns = parts[longest].times.windows(per_turn + 1).step_by(per_turn);
-        let fastest = turns.map(|w| 1.0 / (w[per_turn] - w[0])).fold(0.0, f64::max);
-        Ok(SpectrumDomain::Angle { resampler, longest, fastest })
+        let revolutions = turns.times().windows(per_turn + 1).step_by(per_turn);
+        let fastest = revolutions.map(|w| 1.0 / (w[per_turn] - w[0])).fold(0.0, f64::max);
+        Ok(SpectrumDomain::Angle { theta, turns, fastest, slower: Mutex::default() })
     }
 
     /// Hz per unit of the frequency axis; `None` for orders.
@@ -267,9 +313,8 @@ impl SpectrumDomain {
                 let needed = (TURNS * rate / cage).ceil() as usize;
                 check_length("record", samples, needed, "ten revolutions of the cage, to resolve its lines")
             }
-            SpectrumDomain::Angle { resampler, longest, .. } => {
-                let given = resampler.parts()[*longest].times.len() as f64
-                    / resampler.samples_per_revolution() as f64;
+            SpectrumDomain::Angle { turns, .. } => {
+                let given = turns.times().len() as f64 / turns.per_turn() as f64;
                 let needed = TURNS / cage;
                 if given < needed {
                     let purpose = "ten revolutions of the cage, to resolve its lines";
@@ -281,18 +326,48 @@ impl SpectrumDomain {
         }
     }
 
-    /// Amplitude spectrum of an envelope minus its mean (Hann, peak).
+    /// Amplitude spectrum of an envelope at the record's rate, minus its mean (Hann, peak).
     fn spectrum(&self, envelope: &[f64]) -> Result<Spectrum, SignalError> {
-        let (values, rate) = match self {
-            SpectrumDomain::Time { rate } => (envelope.to_vec(), *rate),
-            SpectrumDomain::Angle { resampler, longest, .. } => {
-                let mut parts = resampler.resample(&[envelope])?;
-                let channel = parts.swap_remove(*longest).swap_remove(0);
-                (channel, resampler.samples_per_revolution() as f64)
-            }
-        };
-        deviation_spectrum(values, rate)
+        match self {
+            SpectrumDomain::Time { rate } => deviation_spectrum(envelope.to_vec(), *rate),
+            SpectrumDomain::Angle { turns, .. } => turns.spectrum(envelope),
+        }
     }
+
+    /// The same of an envelope of the record's duration at another rate \[Hz\].
+    fn spectrum_at(&self, envelope: &[f64], rate: f64) -> Result<Spectrum, SignalError> {
+        match self {
+            SpectrumDomain::Time { .. } => deviation_spectrum(envelope.to_vec(), rate),
+            SpectrumDomain::Angle { theta, turns, .. } if theta.len() == envelope.len() => {
+                turns.spectrum(envelope)
+            }
+            SpectrumDomain::Angle { theta, turns, slower, .. } => {
+                let count = envelope.len();
+                let known = slower.lock().unwrap_or_else(PoisonError::into_inner).get(&count).cloned();
+                let part = match known {
+                    Some(part) => part,
+                    None => {
+                        let part = TurningPart::new(&at_rate_of(theta, count), rate, turns.per_turn())?;
+                        let mut all = slower.lock().unwrap_or_else(PoisonError::into_inner);
+                        all.entry(count).or_insert_with(|| Arc::new(part)).clone()
+                    }
+                };
+                part.spectrum(envelope)
+            }
+        }
+    }
+}
+
+/// Shaft angle at `count` equal steps over its duration, linear in between.
+fn at_rate_of(theta: &[f64], count: usize) -> Vec<f64> {
+    let ratio = theta.len() as f64 / count as f64;
+    let value = |k: usize| {
+        let at = (k as f64 * ratio).min((theta.len() - 1) as f64);
+        let before = (at as usize).min(theta.len().saturating_sub(2));
+        let [a, b] = [theta[before], theta[(before + 1).min(theta.len() - 1)]];
+        a + (at - before as f64) * (b - a)
+    };
+    (0..count).map(value).collect()
 }
 
 /// Amplitude spectrum of an envelope minus its mean (Hann, peak).
