@@ -151,7 +151,7 @@ pub(super) fn of_table(
 const LARGEST_ERROR: f64 = 1e-3;
 const NOTED_ERROR: f64 = 1e-4;
 
-/// The axis of rounded times: by the rate that is given or stated, else by their mean step.
+/// The axis of rounded times: by the rate that is given or stated, else by the step that fits them.
 fn of_rounded(
     rounded: &RoundedStep,
     name: &str,
@@ -164,19 +164,20 @@ fn of_rounded(
     let uniform =
         |step: f64, source: String| TableAxis { points: None, uniform: Some((start, step)), source };
     let of_column = format!("the column `{name}`");
-    if let Some(rate) = given.filter(|rate| (rate / mean - 1.0).abs() <= error + 1e-9) {
+    let is_meant = |rate: f64| (rate / mean - 1.0).abs() <= error + 1e-9 || is_same_rate(rate, mean);
+    if let Some(rate) = given.filter(|rate| is_meant(*rate)) {
         return Ok(uniform(1.0 / rate, StatedRate::given(rate).source));
     }
     if let Some(stated) = stated {
-        let fits =
-            contradicted || (stated.rate / mean - 1.0).abs() <= error || is_same_rate(stated.rate, mean);
+        let fits = contradicted || is_meant(stated.rate);
         let of_column = StatedRate { rate: mean, step, source: of_column };
         let instead = if fits { None } else { one_rate([&stated, &of_column], given, out)? };
         let rate = instead.unwrap_or(stated);
         return Ok(uniform(rate.step, rate.source));
     }
     // A whole number of Hz within the error is meant.
-    let whole = Some(mean.round()).filter(|whole| *whole >= 1.0 && (whole / mean - 1.0).abs() <= error);
+    let whole =
+        Some(mean.round()).filter(|whole| *whole >= 1.0 && (whole / mean - 1.0).abs() <= error + 1e-9);
     let rate = whole.unwrap_or(mean);
     if error > LARGEST_ERROR && given.is_none() {
         let problem = format!(

@@ -37,9 +37,9 @@ impl Digits {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct RoundedStep {
     pub start: f64,
-    /// Mean over the whole column.
+    /// Middle of the steps that the rounding of all times admits.
     pub step: f64,
-    /// Relative error of the step by the rounding of the first and the last time.
+    /// Half the range of these steps, over the step.
     pub error: f64,
     /// Whether nearly all steps are one multiple of the last digit: the others may be lost or doubled samples.
     pub may_have_slips: bool,
@@ -50,6 +50,8 @@ const MIN_TIMES: usize = 3;
 /// Fewest steps, and their share, that differ from the most frequent one by rounding.
 const FEWEST_OTHERS: usize = 10;
 const SHARE_OF_OTHERS: f64 = 0.01;
+/// Halvings of the range of a step at its edges.
+const EDGE_HALVINGS: usize = 20;
 /// Smallest step \[s\]: shorter ones are of days.
 const SHORTEST_STEP: f64 = 1e-7;
 
@@ -76,7 +78,57 @@ pub(super) fn rounded_step(times: &[f64], digits: &Digits) -> Option<RoundedStep
     let usual = (step / largest).round();
     let others = times.windows(2).filter(|pair| ((pair[1] - pair[0]) / largest).round() != usual).count();
     let few = (others as f64) < (SHARE_OF_OTHERS * times.len() as f64).max(FEWEST_OTHERS as f64);
-    Some(RoundedStep { start, step, error: largest / (end - start), may_have_slips: usual >= 1.0 && few })
+    let [shortest, longest] = admitted_steps(times, digits, step, largest / (end - start))?;
+    Some(RoundedStep {
+        start,
+        step: 0.5 * (shortest + longest),
+        error: (longest - shortest) / (longest + shortest),
+        may_have_slips: usual >= 1.0 && few,
+    })
+}
+
+/// Shortest and longest step within `error` of `step` (relative) from which no time is farther than its rounding.
+fn admitted_steps(times: &[f64], digits: &Digits, step: f64, error: f64) -> Option<[f64; 2]> {
+    let halves: Vec<f64> = times.iter().map(|time| 0.5 * digits.last_digit(*time)).collect();
+    // Σ of floating-point errors of the times.
+    let tolerance = 4.0 * f64::EPSILON * times.last()?.abs();
+    // By how much the times lie too far apart: a convex function of the step, positive where it is not admitted.
+    let excess = |step: f64| {
+        let start = |(k, (time, half)): (usize, (&f64, &f64))| {
+            let off = time - step * k as f64;
+            (off - half, off + half)
+        };
+        let range = times.iter().zip(&halves).enumerate().map(start);
+        let (low, high) = range.fold((f64::NEG_INFINITY, f64::INFINITY), |range, (low, high)| {
+            (range.0.max(low), range.1.min(high))
+        });
+        low - high - tolerance
+    };
+    let (mut low, mut high) = (step * (1.0 - error), step * (1.0 + error));
+    let mut inside = step;
+    while excess(inside) > 0.0 {
+        // Towards the minimum, by thirds.
+        let third = (high - low) / 3.0;
+        let [left, right] = [low + third, high - third];
+        if excess(left) < excess(right) {
+            high = right
+        } else {
+            low = left
+        }
+        if third < f64::EPSILON * step {
+            return None;
+        }
+        inside = 0.5 * (low + high);
+    }
+    let edge = |outside: f64| {
+        let (mut inside, mut outside) = (inside, outside);
+        for _ in 0..EDGE_HALVINGS {
+            let middle = 0.5 * (inside + outside);
+            if excess(middle) > 0.0 { outside = middle } else { inside = middle }
+        }
+        inside
+    };
+    Some([edge(step * (1.0 - error)), edge(step * (1.0 + error))])
 }
 
 /// Whether times are those of a step but for their rounding: a lost sample would move those behind it by a step.

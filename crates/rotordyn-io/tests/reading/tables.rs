@@ -168,9 +168,25 @@ fn rounded_times_are_uniform_within_their_digits() {
     // Another rate is stated than the column has.
     let error = of("fs: 25600 Hz\nTime [s],x\n", 4, None).unwrap_err();
     assert!(error.contains("two sampling rates") && error.contains("25600"), "{error}");
-    // 20000 samples in two digits: the rate is not known well enough.
-    let error = of("Time [s],x\n", 2, None).unwrap_err();
+    // 100 samples in two digits: the rate is not known well enough.
+    let few: String = (0..100).map(|k| times(2)(k, vibration(k)) + "\n").collect();
+    let error = read("t.csv", format!("Time [s],x\n{few}").as_bytes(), None).unwrap_err();
     assert!(error.contains("too few digits") && error.contains("--rate"), "{error}");
+    // The ends alone admit rates of 0.05 % around; all times together tell it.
+    for (expected, decimals, count) in
+        [(2000.0, 3, 2001), (2000.0, 3, 2500), (1652.0, 3, 1700), (51_200.0, 4, 9000)]
+    {
+        for cut in [0.0, 0.5] {
+            let unit = 10.0_f64.powi(-decimals);
+            let line = |k: usize| {
+                let time = ((k as f64 / expected / unit + 0.5 - cut + 1e-9).floor() * unit).abs();
+                format!("{time:.*},{:.5}\n", decimals as usize, vibration(k))
+            };
+            let text: String = (0..count).map(line).collect();
+            let found = read("t.csv", format!("Time [s],x\n{text}").as_bytes(), None).unwrap();
+            assert_eq!(rate(&found, "x").round(), expected, "{decimals} {count} {cut}");
+        }
+    }
     let exponents = table_of("Time [s],x\n", |k, x| format!("{:.3e},{x:.5}", k as f64 / 12_800.0));
     assert!((rate(&exponents, "x") / 12_800.0 - 1.0).abs() < 1e-3);
 }
