@@ -36,7 +36,7 @@ const AFTER: f64 = 0.01;
 ///
 /// `files` have the same channels at the same points: their hits are averaged. Double hits and hits with force
 /// overload are rejected, hits with response overload only for that response. After the contact the force is set
-/// to zero (force window).
+/// to zero (force window). Offsets of the channels, what they read before the hits, are removed.
 ///
 /// # Errors
 /// No force, records of different rates or lengths, no usable hit, NaN.
@@ -92,7 +92,7 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
         }
         if residual > 0.0 {
             warnings.push(format!(
-                "`{}` is truncated: {:.0} % of its peak is left at the end of a block; take longer blocks (--block), or \
+                "`{}` is truncated: {:.0} % of its motion is left at the end of a block; take longer blocks (--block), or \
                  an exponential window (--exponential-window)",
                 response.name,
                 100.0 * residual
@@ -100,7 +100,8 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
         }
         let after = (AFTER * rate).round() as usize;
         let windows = ImpactWindows { force_length: Some(2 * contact + after), ..windows };
-        let estimate = frf_from_hits(&good, rate, windows)?;
+        let hits: Vec<Hit> = good.iter().map(OwnHit::as_hit).collect();
+        let estimate = frf_from_hits(&hits, rate, windows)?;
         out.extend(records(force, response, number, estimate, good.len(), test.estimator));
     }
     if out.is_empty() {
@@ -116,10 +117,37 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
     Ok((out, warnings))
 }
 
+/// A hit without the offsets of its channels.
+struct OwnHit {
+    force: Vec<f64>,
+    response: Vec<f64>,
+}
+
+impl OwnHit {
+    fn as_hit(&self) -> Hit<'_> {
+        Hit { force: &self.force, response: &self.response }
+    }
+}
+
+/// Time before a block \[s\] in which a channel rests, and the least number of samples there.
+const QUIET: f64 = 0.2;
+const MIN_QUIET: usize = 16;
+
+/// A block without the offset of its channel, the median before the block; that of the record if it begins there.
+///
+/// The force window keeps an offset over its length only: the force would have another spectrum. An exponential window turns
+/// that of a response into a decay.
+fn without_offset(samples: &[f64], block: &Range<usize>, rate: f64) -> Vec<f64> {
+    let quiet = block.start.saturating_sub((QUIET * rate).round() as usize)..block.start;
+    let of = if quiet.len() < MIN_QUIET { samples } else { &samples[quiet] };
+    let offset = median(of.to_vec());
+    samples[block.clone()].iter().map(|v| v - offset).collect()
+}
+
 /// The hits of one response.
 #[derive(Default)]
 struct HitSet<'a> {
-    good: Vec<Hit<'a>>,
+    good: Vec<OwnHit>,
     inspected: Vec<Inspected<'a>>,
     /// Samples of a block up to the end of the longest contact.
     contact: usize,
@@ -145,8 +173,11 @@ fn inspect_all<'a>(
         finite(own)?;
         let (samples, values) = (force.time_samples()?, own.time_samples()?);
         for block in blocks {
-            let hit = Hit { force: &samples[block.clone()], response: &values[block.clone()] };
-            let quality = inspect(&hit, &Limits::default(), Some(window))?;
+            let hit = OwnHit {
+                force: without_offset(samples, block, rate),
+                response: without_offset(values, block, rate),
+            };
+            let quality = inspect(&hit.as_hit(), &Limits::default(), Some(window))?;
             if quality.is_good() {
                 out.contact = out.contact.max(quality.contact.end);
                 out.residual = out.residual.max(if quality.truncated { quality.residual } else { 0.0 });
@@ -252,6 +283,8 @@ fn blocks(
     warnings: &mut Vec<String>,
 ) -> Result<Vec<Range<usize>>, RecordError> {
     let force = record.time_samples()?;
+    let offset = median(force.to_vec());
+    let force: &[f64] = &force.iter().map(|f| f - offset).collect::<Vec<_>>();
     let samples = |seconds: f64| (seconds * rate).round().max(1.0) as usize;
     let largest = force.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
     let usual_size = median(force.iter().map(|f| f.abs()).collect());
