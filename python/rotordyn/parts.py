@@ -2345,10 +2345,12 @@ class Load(Part):
         moment.
     ``moment`` (moment: three: about x, y, z): Moment, constant, times factor or random. Without it: required,
         or force.
-    ``time`` (time: one or more, increasing): Times of a load history. Without it: required, with factor. With
-        factor = [0, 1].
-    ``factor`` (number: as many as time): Factor of the load at these times. Without it: required, with time.
-        With time = "0, 0.1 s".
+    ``time`` (time: one or more, increasing): Times of a load history, with straight lines between them; it is
+        no part of the statics, a run starts without it. Without it: required, with factor. With factor = [0,
+        1].
+    ``factor`` (number: as many as time): Factor of the load at these times; the first one holds from the
+        start of the run on, the last one to its end: 0 for a load that sets in later, or ends. Without it:
+        required, with time. With time = "0, 0.1 s".
     ``band`` (frequency: two, increasing, zero or greater): Frequencies between which the spectrum of a random
         load is flat; force and moment are its RMS values.
     ``seed`` (whole number, from 0 to 999999999): Random course of a load with a band: the same for equal
@@ -2476,7 +2478,8 @@ class SpeedProfile(Part):
     ``profile`` ("constant", "ramp", "s-curve", "table", "coast-down", "measured"): Form of the speed over
         time; s-curve is a ramp without jumps of the acceleration. Required.
     ``speed`` (speed of rotation, zero or greater or speed of rotation: as many as time, zero or greater):
-        Speed. Speeds at these times. Required. With profile = "constant".
+        Speed. Speeds at these times; between them a smooth curve (monotone cubic, PCHIP) without overshoot,
+        not straight lines. Required. With profile = "constant".
     ``duration`` (time, greater than zero): Duration. Required. With profile = "constant".
     ``from_`` (speed of rotation, zero or greater or time, zero or greater): Speed at the start. Start of the
         part used. Without it: "0 rpm". With profile = "ramp" or profile = "s-curve".

@@ -22,6 +22,8 @@ pub enum Failure {
     Input(String),
     /// Error of the library: no solution, invalid data or a file operation.
     Library(Error),
+    /// Samples of a run of this job that a study cannot use: no file and no argument is wrong.
+    AfterRun(SignalError),
     /// Ctrl-C, SIGTERM or SIGHUP.
     Interrupted,
 }
@@ -106,6 +108,14 @@ impl Failure {
         }
     }
 
+    /// Failure of a study of the samples of a run; `computed`: the run is one of this job, not one that the user named.
+    pub fn of_samples(error: StudyError, computed: bool) -> Self {
+        match error.into() {
+            Error::Signal(error) if computed => Self::AfterRun(error),
+            other => Self::Library(other),
+        }
+    }
+
     /// The same failure with the file it concerns, if its message does not name it.
     pub fn of_file(self, path: &std::path::Path) -> Self {
         let name = path.display().to_string();
@@ -128,7 +138,7 @@ impl Failure {
                 | Error::Update(_)
                 | Error::Content { .. },
             ) => 2,
-            Self::Library(Error::Physics(_)) => 3,
+            Self::Library(Error::Physics(_)) | Self::AfterRun(_) => 3,
             Self::Library(Error::Environment { .. }) => 4,
             Self::Interrupted => interrupt::exit_code(),
         }
@@ -149,6 +159,7 @@ impl Failure {
             Self::Model(errors) => errors.to_string(),
             Self::Input(message) => message.clone(),
             Self::Library(error) => error.to_string(),
+            Self::AfterRun(error) => error.to_string(),
             Self::Interrupted => format!("ended by {}", interrupt::cause()),
         }
     }

@@ -10,7 +10,7 @@ use rotordyn::io::measured::{mapping, run_up};
 use rotordyn::io::{machine_records, results_file};
 use rotordyn::model::Model;
 use rotordyn::results::{Agreement, CampbellResult, ChannelPair, CutPair, StepError, level_difference_db};
-use rotordyn::study::{Machine, MeasuredRun, run_up_warnings};
+use rotordyn::study::{Machine, MeasuredRun};
 use rotordyn::update::UpdateError;
 use rotordyn::warning::Code;
 
@@ -218,7 +218,7 @@ pub fn compare(
         )?);
         spinner.finish_and_clear();
     }
-    for warning in run_up_warnings(computed) {
+    for warning in job.machine.run_up_warnings(computed) {
         terminal.warn(&warning.prefixed("the simulated run-up"));
     }
     Ok((Some(compared), files))

@@ -45,7 +45,9 @@ pub fn poincare(terminal: &Terminal, found: &PoincareResult) {
             row.push(span(&mut p.section[k].iter(), &p.axes[k].unit));
         }
         row.push(p.whirl.as_ref().map_or("-".into(), |w| w.name().to_string()));
-        row.push(p.whirl.as_ref().map_or("-".into(), |w| number(w.synchronous.semi_axes().0, 3)));
+        row.push(p.whirl.as_ref().map_or("-".into(), |w| {
+            format!("{} {}", number(w.synchronous.semi_axes().0, 3), p.axes[0].unit)
+        }));
         row
     };
     let rows: Vec<Vec<String>> = found.planes.iter().map(row).collect();

@@ -328,6 +328,8 @@ impl<'a> Job<'a> {
         let (machine, terminal) = (&self.machine, self.terminal);
         let studies = &machine.model.studies;
         let spinner = terminal.spinner(study.name());
+        let is_computed = self.seconds.iter().any(|(done, _)| *done == Study::RunUp.name());
+        let of_samples = |error| Failure::of_samples(error, is_computed);
         match study {
             linear if linear.is_linear() => {
                 linear.compute(machine, &mut self.results)?;
@@ -341,7 +343,8 @@ impl<'a> Job<'a> {
             Study::Spectrogram => {
                 if let (Some(settings), Some(run)) = (&studies.spectrogram, &self.results.run_up) {
                     let found =
-                        machine.spectrograms_kept(settings, &run.history, &mut |map| self.spill.keep(map))?;
+                        machine.spectrograms_kept(settings, &run.history, &mut |map| self.spill.keep(map));
+                    let found = found.map_err(of_samples)?;
                     spinner.finish_and_clear();
                     tables::spectrograms(terminal, &found)?;
                     self.results.spectrograms = found;
@@ -349,8 +352,8 @@ impl<'a> Job<'a> {
             }
             Study::Orders => {
                 if let (Some(settings), Some(run)) = (&studies.orders, &self.results.run_up) {
-                    let found =
-                        machine.orders_kept(settings, &run.history, &mut |map| self.spill.keep(map))?;
+                    let found = machine.orders_kept(settings, &run.history, &mut |map| self.spill.keep(map));
+                    let found = found.map_err(of_samples)?;
                     spinner.finish_and_clear();
                     tables::orders(terminal, &found);
                     self.results.orders = found;

@@ -337,7 +337,7 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult, check_seconds: f64) {
     terminal.print(&format!(
         "  {:.3} s simulated up to {:.1} rpm: {} steps{newton}, {} halved or rejected steps, {} samples",
         summary.end_time,
-        rpm(summary.end_speed),
+        rpm(summary.top_speed()),
         report.steps,
         report.halvings,
         report.samples
@@ -353,9 +353,9 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult, check_seconds: f64) {
     let rows: Vec<Vec<String>> = [
         (if driven { "work of loads" } else { "work of loads, unbalance and drive" }, e.work),
         ("work of the drive torque", e.drive),
-        ("parametric work (cage rotation)", e.parametric),
+        ("parametric work (cage rotation, cross-coupling)", e.parametric),
         ("dissipated by damping", -e.damping_loss),
-        ("dissipated in contacts", -e.contact_loss),
+        ("dissipated in bearings", -e.contact_loss),
         ("residual", e.residual()),
         ("change of the stored energy, the sum of these", e.stored() - e.start),
         ("stored at the start (kinetic, strain, contacts)", e.start),

@@ -25,6 +25,7 @@ mod renamed;
 mod report;
 mod result_documents;
 mod resume;
+mod run_up_checks;
 mod run_ups;
 mod runs;
 mod signal;

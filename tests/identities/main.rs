@@ -11,6 +11,7 @@ mod rig;
 mod automatic_ball_inertia;
 mod bearing_solver;
 mod complete_crossings;
+mod divergence;
 mod double_eigenvalues;
 mod heavily_damped;
 mod linear;

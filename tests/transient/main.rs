@@ -6,12 +6,14 @@ mod measured_data;
 mod rig;
 
 mod cage_phases;
+mod cross_coupling;
 mod defect_steps;
 mod free_balls;
 mod high_speed;
 mod impact;
 mod imperfections;
 mod interface_forces;
+mod load_history;
 mod measured_run_up;
 mod radial_balls;
 mod resume;

@@ -62,6 +62,9 @@ fn dead_channels_are_not_diagnosed() {
     write(folder.path(), "alive.npz", vibration());
     let (text, _) = run(folder.path(), &["signal", "alive.npz"]);
     assert!(text.contains("no bearing fault") && !text.contains("warning[record-"), "{text}");
+    // The second record of a comparison.
+    let (text, _) = run(folder.path(), &["signal", "alive.npz", "--compare-with", "mostly.npz"]);
+    assert!(text.contains("warning[record-gap]") && text.contains("mostly.npz: `acc`"), "{text}");
 }
 
 #[test]

@@ -38,6 +38,7 @@ pub const LINEAR: &[Case] = &[
     (Code::UnstableMode, || {
         exchanged("two_discs_soft", "k_xx = ", "k_xy = \"5e6 N/m\"\nk_yx = \"-5e6 N/m\"\nk_xx = ")
     }),
+    (Code::StaticInstability, || exchanged("two_discs_soft", "k_xx = \"", "k_xx = \"-")),
     (Code::UndampedPeak, || {
         let mut rotor = machine("two_discs_soft");
         rotor.more =

@@ -20,7 +20,7 @@ use super::mac::mac;
 use super::plscf::{Pole, normalise_largest};
 use super::pole_selection::directions;
 use super::refine::{FitPoint, Problem};
-use super::two_modes::are_two;
+use super::two_modes::{MIN_EXPLAINED, are_two, noise};
 use super::window::Window;
 use rotordyn_linalg::Complex64;
 
@@ -63,9 +63,6 @@ const START_DISTANCES: [f64; 2] = [0.2, 0.7];
 const MIN_SIGNIFICANCE: f64 = 10.0;
 /// Minimum share of the second pole in the energy of the FRFs in the window: 0.1 % of the amplitude.
 const MIN_SHARE: f64 = 1e-6;
-/// What the second pole explains over what neither it nor noise explains: less is as likely a structure that changes between
-/// hits, of which a second pole takes up a part.
-pub(super) const MIN_EXPLAINED: f64 = 20.0;
 /// Residuals over the FRFs, squared, at which of one mode there is nothing left to explain; and at which a fit counts as
 /// exact, so that its modes are the only ones that explain the FRFs.
 const ROUND_OFF: f64 = 1e-20;
@@ -172,14 +169,6 @@ fn pair_of(problem: &Problem, poles: &[Pole], fit: &Fit, m: usize, settings: &Se
         return None;
     }
     Some(if certain { Split::Two(pair) } else { Split::Maybe(pair) })
-}
-
-/// Energy of the noise in the residuals, by third differences from line to line, as in `data::noise_rms`; their mean, not the
-/// median, contains the noise of the force, which is strongest at the resonance.
-pub(super) fn noise(at: &FitPoint, lines: usize) -> f64 {
-    let third = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).powi(2) / 20.0;
-    let of = |part: &[f64]| part.windows(4).map(third).sum::<f64>() * lines as f64 / (lines - 3) as f64;
-    at.residual.as_slice().chunks(lines).map(of).sum()
 }
 
 /// The FRFs around a mode.

@@ -12,7 +12,6 @@ use rayon::prelude::*;
 use super::data::Data;
 use super::lsfd::Fit;
 use super::mac::mac;
-use super::pairs::{self, MIN_EXPLAINED};
 use super::plscf::Pole;
 use super::refine::{FitPoint, Problem};
 use super::window::Window;
@@ -26,6 +25,18 @@ const TOGETHER_STEPS: usize = 4;
 const EACH_STEPS: usize = 8;
 /// Minimum F statistic of the two common poles against one for each FRF.
 const MIN_SIGNIFICANCE: f64 = 10.0;
+
+/// What the second pole explains over what neither it nor noise explains: less is as likely a structure that changes between
+/// hits, of which a second pole takes up a part.
+pub(super) const MIN_EXPLAINED: f64 = 20.0;
+
+/// Energy of the noise in the residuals, by third differences from line to line, as in `data::noise_rms`; their mean, not the
+/// median, contains the noise of the force, which is strongest at the resonance.
+pub(super) fn noise(at: &FitPoint, lines: usize) -> f64 {
+    let third = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).powi(2) / 20.0;
+    let of = |part: &[f64]| part.windows(4).map(third).sum::<f64>() * lines as f64 / (lines - 3) as f64;
+    at.residual.as_slice().chunks(lines).map(of).sum()
+}
 
 /// Whether two poles, which take the place of the poles `taken`, are two modes with shapes of a MAC below `shapes`.
 pub(super) fn are_two(
@@ -62,7 +73,7 @@ pub(super) fn are_two(
     let frfs: Vec<&Vec<Complex64>> = window.data.values.iter().flatten().collect();
     let each: Vec<f64> = frfs.par_iter().map(|frf| cost_of_one(&window.data, frf, &others, values)).collect();
     let each = each.iter().sum::<f64>();
-    let noise = pairs::noise(&two, lines);
+    let noise = noise(&two, lines);
     let gain = each - two.cost;
     let variance = two.residual_variance().max(f64::MIN_POSITIVE);
     gain > MIN_SIGNIFICANCE * 2.0 * frfs.len() as f64 * variance

@@ -12,7 +12,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 pub enum EigenError {
     #[error("the iteration did not converge")]
     NoConvergence,
-    #[error("the mass matrix is not positive definite")]
+    #[error("a matrix of the eigenvalue problem is not positive definite")]
     NotDefinite,
     #[error("a matrix contains a value that is not finite")]
     NotFinite,

@@ -1,7 +1,10 @@
 //! Order tracking by angular resampling: order spectrogram, averaged order spectrum, order cuts.
 
+pub mod smear;
+
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{SQRT_2, TAU};
+use std::ops::Range;
 
 use rustfft::num_complex::Complex;
 
@@ -12,6 +15,7 @@ use super::segment::{Level, SegmentTransform};
 use super::stft::interpolate_at;
 use super::window::WindowKind;
 use rotordyn_linalg::fft_length;
+use smear::{Smear, loss_by_window, taken_by_window};
 
 /// Settings of order tracking.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +60,11 @@ pub struct OrderSpectrogram<A = Vec<f64>> {
     /// Equivalent noise bandwidth in bins.
     pub noise_bandwidth_bins: f64,
     pub level: Level,
+    #[serde(default)]
+    pub window: WindowKind,
+    /// Cuts whose maximum the window lowers by more than 10 %, of those looked at.
+    #[serde(default)]
+    pub smeared: Vec<Smear>,
 }
 
 /// Order cut: the RMS level of one order against speed.
@@ -187,6 +196,8 @@ impl OrderTracker {
             amplitude,
             noise_bandwidth_bins: self.transform.noise_bandwidth_bins(),
             level: self.settings.level,
+            window: self.settings.window,
+            smeared: Vec::new(),
         }
     }
 
@@ -194,30 +205,60 @@ impl OrderTracker {
     ///
     /// x = |X| cos(νθ + arg X). `record` comes from [`Self::resample`]. Errors: order not in 0..highest.
     pub fn vector(&self, record: &AngleRecord, order: f64) -> Result<OrderVector, SignalError> {
-        let inside = order > 0.0 && order <= self.settings.max_order;
-        check(inside, "order", "more than 0, at most the highest order", order)?;
-        let per_revolution = self.resampler.samples_per_revolution() as f64;
-        let parts = self.resampler.parts().iter().zip(&record.parts);
-        let turned: Vec<Vec<Complex<f64>>> = parts
-            .map(|(part, samples)| {
-                let at = |(k, x): (usize, &f64)| {
-                    Complex::from_polar(*x, -order * TAU * (part.first + k as i64) as f64 / per_revolution)
-                };
-                samples.iter().enumerate().map(at).collect()
-            })
-            .collect();
-        let weights = self.transform.window();
-        let scale = 2.0 / weights.iter().sum::<f64>();
-        let at = |&(part, first): &(usize, usize)| {
-            let samples = &turned[part][first..first + weights.len()];
-            samples.iter().zip(weights).map(|(z, w)| z * w).sum::<Complex<f64>>() * scale
-        };
+        let turned = self.turned(record, order)?;
+        let at = |&(part, first): &(usize, usize)| self.mean_of_window(&turned[part], first);
         Ok(OrderVector {
             order,
             times: self.times.clone(),
             rpm: self.rpm.clone(),
             amplitude: self.windows.iter().map(at).collect(),
         })
+    }
+
+    /// A cut of this record whose maximum the window lowers by more than 10 %, as a fast passage through a resonance.
+    ///
+    /// The loss is a lower bound. Not told within a quarter of a window of the ends of a part, nor with fewer than five
+    /// windows, nor for the mean.
+    pub fn smear(&self, record: &AngleRecord, cut: &OrderCut) -> Option<Smear> {
+        let turned = self.turned(record, cut.order).ok()?;
+        let length = self.transform.length();
+        let quarter = length / 4;
+        let around = |&(part, first): &(usize, usize)| {
+            let samples = &turned[part];
+            let inside = first >= quarter && first + length + quarter <= samples.len();
+            inside.then(|| {
+                [first - quarter, first, first + quarter].map(|first| self.mean_of_window(samples, first))
+            })
+        };
+        let found: Vec<_> = self.windows.iter().map(around).collect();
+        let highest = (0..cut.rms.len()).max_by(|&a, &b| cut.rms[a].total_cmp(&cut.rms[b]));
+        let (highest, neighbours) = highest.and_then(|k| Some((k, found[k]?)))?;
+        let all: Vec<f64> = found.iter().flatten().map(|values| taken_by_window(*values)).collect();
+        let loss = loss_by_window(neighbours[1].norm(), taken_by_window(neighbours), &all);
+        loss.map(|loss| Smear { order: cut.order, rpm: cut.rpm[highest], loss })
+    }
+
+    /// x e^{−jνθ} of every part.
+    fn turned(&self, record: &AngleRecord, order: f64) -> Result<Vec<Vec<Complex<f64>>>, SignalError> {
+        let inside = order > 0.0 && order <= self.settings.max_order;
+        check(inside, "order", "more than 0, at most the highest order", order)?;
+        let per_revolution = self.resampler.samples_per_revolution() as f64;
+        let parts = self.resampler.parts().iter().zip(&record.parts);
+        let turned = parts.map(|(part, samples)| {
+            let at = |(k, x): (usize, &f64)| {
+                Complex::from_polar(*x, -order * TAU * (part.first + k as i64) as f64 / per_revolution)
+            };
+            samples.iter().enumerate().map(at).collect()
+        });
+        Ok(turned.collect())
+    }
+
+    /// 2 Σ w_k z_k/Σw over the window from sample `first` on.
+    fn mean_of_window(&self, turned: &[Complex<f64>], first: usize) -> Complex<f64> {
+        let weights = self.transform.window();
+        let sum: Complex<f64> =
+            turned[first..first + weights.len()].iter().zip(weights).map(|(z, w)| z * w).sum();
+        sum * (2.0 / weights.iter().sum::<f64>())
     }
 }
 
@@ -236,9 +277,34 @@ impl<A> OrderSpectrogram<A> {
         self,
         form: impl FnOnce(A) -> Result<B, E>,
     ) -> Result<OrderSpectrogram<B>, E> {
-        let Self { times, rpm, orders, amplitude, noise_bandwidth_bins, level } = self;
+        let Self { times, rpm, orders, amplitude, noise_bandwidth_bins, level, window, smeared } = self;
         let amplitude = form(amplitude)?;
-        Ok(OrderSpectrogram { times, rpm, orders, amplitude, noise_bandwidth_bins, level })
+        Ok(OrderSpectrogram { times, rpm, orders, amplitude, noise_bandwidth_bins, level, window, smeared })
+    }
+
+    /// Bins of the band `order` ± `half_band`, laid about the bin nearest to the order; empty beyond the axis.
+    ///
+    /// So an order between two bins has as many bins as one at a bin, and a line that slips by half a bin stays among them.
+    pub(super) fn band(&self, order: f64, half_band: f64) -> Range<usize> {
+        let bins = self.orders.len();
+        let spacing = self.orders.get(1).copied().unwrap_or(1.0);
+        let centre = (order / spacing).round();
+        // Up to rounding a band edge on a bin includes that bin.
+        let reach = (half_band / spacing + 1e-9 * bins as f64).floor();
+        if !order.is_finite() || centre < 0.0 || reach < 0.0 || centre - reach >= bins as f64 {
+            return 0..0;
+        }
+        (centre - reach).max(0.0) as usize..((centre + reach) as usize + 1).min(bins)
+    }
+
+    /// D = Σ |W(k − ν)|²/|W(0)|² over these bins: the power in them of a line at the order, over that of the line.
+    ///
+    /// A band as wide as the main lobe has all of it, the noise bandwidth in bins. A line by the bin of the mean is joined by
+    /// its image at −ν, with which it shares no phase on average.
+    pub(super) fn line_share(&self, bins: Range<usize>, order: f64) -> f64 {
+        let place = order / self.orders.get(1).copied().unwrap_or(1.0);
+        let power = |k: f64| self.window.line_shape(k - place).powi(2);
+        bins.map(|k| power(k as f64) + if k > 0 { power(-(k as f64)) } else { 0.0 }).sum()
     }
 }
 
@@ -249,23 +315,24 @@ impl OrderSpectrogram {
         &self.amplitude[window * bins..(window + 1) * bins]
     }
 
-    /// RMS in the band `order` ± `half_band` against speed, √(Σ A_rms² / noise bandwidth).
+    /// RMS of the line of an order against speed, √(Σ A_rms²/D) over the bins of the band `order` ± `half_band`.
     ///
-    /// A tone's level needs a band as wide as the window's main lobe. Errors: no bin in the band.
+    /// D is the power of the line in these bins ([`Self::line_share`]): a line at the order has its level whatever the
+    /// window, the band and the place of the order between the bins. With Hann and three bins a line half a bin from the
+    /// order reads up to 1 % low or high, one a bin from it 8 % low; white noise reads as √(bins/D) times that of one bin.
+    /// Errors: no bin in the band.
     pub fn cut(&self, order: f64, half_band: f64) -> Result<OrderCut, SignalError> {
-        // Bins are multiples of the spacing up to rounding: a band edge on a bin includes that bin.
-        let slack = 1e-9 * self.orders.last().copied().unwrap_or(0.0);
-        let first = self.orders.partition_point(|o| *o < order - half_band - slack);
-        let end = self.orders.partition_point(|o| *o <= order + half_band + slack);
-        check(first < end, "order band", "a band that contains an order bin", order)?;
+        let band = self.band(order, half_band);
+        check(!band.is_empty(), "order band", "a band that contains an order bin", order)?;
+        let share = self.line_share(band.clone(), order);
         let to_rms = |k: usize| match self.level {
             Level::Peak if k > 0 => 1.0 / SQRT_2,
             _ => 1.0,
         };
         let rms = |window: usize| {
             let row = self.row(window);
-            let power: f64 = (first..end).map(|k| (row[k] * to_rms(k)).powi(2)).sum();
-            (power / self.noise_bandwidth_bins).sqrt()
+            let power: f64 = band.clone().map(|k| (row[k] * to_rms(k)).powi(2)).sum();
+            (power / share).sqrt()
         };
         Ok(OrderCut {
             order,

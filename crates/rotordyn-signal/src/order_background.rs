@@ -6,8 +6,8 @@ use super::jerk::median;
 use super::order::OrderSpectrogram;
 use super::segment::Level;
 
-/// Bins on either side of a line that its window may reach (main lobe of Hann).
-const MAIN_LOBE_BINS: f64 = 2.5;
+/// Bins by which a line may be off its order, beyond half the main lobe of the window.
+const OFF_BINS: f64 = 0.5;
 /// Bins beyond the band of a cut, on either side, in which the background is read.
 const BACKGROUND_BINS: usize = 10;
 /// Windows on either side whose median is taken: a line that passes a resonance rings beside its order for less.
@@ -30,10 +30,10 @@ pub struct CutBackground {
 impl<A> OrderSpectrogram<A> {
     /// Background in the band `order` ± `half_band`, from the bins beside it.
     ///
-    /// N = ν m²/ln 2, m² the median of A_rms² over up to ten bins on either side (noise power is exponentially
-    /// distributed), ν the cells of the band; of that the median over eight windows on either side. Bins that the
-    /// window of another line reaches are left out: those of `lines` and of whole orders. `amplitude` of this
-    /// spectrogram, row-major. `None` if no bin is left.
+    /// N = n m²/(D ln 2), m² the median of A_rms² over up to ten bins on either side (noise power is exponentially
+    /// distributed), n the bins of the band and D the divisor of its cut; of that the median over eight windows on either
+    /// side. Bins that the window of another line reaches are left out: those of `lines` and of whole orders. `amplitude`
+    /// of this spectrogram, row-major. `None` if no bin is left.
     pub fn cut_background(
         &self,
         amplitude: &[f64],
@@ -43,9 +43,9 @@ impl<A> OrderSpectrogram<A> {
     ) -> Option<CutBackground> {
         let spacing = self.orders.get(1)?;
         let bins = self.orders.len();
-        let reach = MAIN_LOBE_BINS * spacing;
-        let first = self.orders.partition_point(|o| *o < order - half_band - 1e-9);
-        let end = self.orders.partition_point(|o| *o <= order + half_band + 1e-9);
+        let reach = (self.window.main_lobe_half_width() + OFF_BINS) * spacing;
+        let band = self.band(order, half_band);
+        let (first, end) = (band.start, band.end);
         let is_free = |k: &usize| {
             let place = self.orders[*k];
             let whole = (place - place.round()).abs() > reach;
@@ -59,11 +59,13 @@ impl<A> OrderSpectrogram<A> {
         if free.is_empty() {
             return None;
         }
-        let cells = (end.saturating_sub(first)).max(1) as f64 / self.noise_bandwidth_bins;
+        let cells = band.len().max(1) as f64 / self.noise_bandwidth_bins;
+        // What noise adds to a cut of this band.
+        let read = band.len().max(1) as f64 / self.line_share(band, order).max(f64::MIN_POSITIVE);
         let to_power = if self.level == Level::Peak { 0.5 } else { 1.0 };
         let medians = amplitude
             .chunks_exact(bins)
-            .map(|row| median(free.iter().map(|k| row[*k] * row[*k]).collect()) * cells * to_power / LN_2);
+            .map(|row| median(free.iter().map(|k| row[*k] * row[*k]).collect()) * read * to_power / LN_2);
         let power: Vec<f64> = medians.collect();
         let about = |k: usize| power[k.saturating_sub(WINDOWS)..(k + WINDOWS + 1).min(power.len())].to_vec();
         let relative_deviation = 1.0 / (LN_2 * (free.len() as f64).sqrt());

@@ -1,10 +1,12 @@
 //! Order tracks: amplitude and phase of several orders over time and speed, from the Vold-Kalman filter.
 
+use rustfft::num_complex::Complex;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 use super::SignalError;
 use super::error::check;
+use super::order::smear::{Smear, loss_by_filter};
 use super::vold_kalman::{Bandwidth, TrackedOrder, shaft_speed, smallest_bandwidth, vold_kalman};
 
 /// Points of a track in the time 1/B in which the narrowest pass band at the highest speed lets an amplitude change.
@@ -26,6 +28,9 @@ pub struct OrderTracks {
     pub min_bandwidth_hz: f64,
     /// RMS of the record, and of what the orders leave of it, over these times.
     pub rms: [f64; 2],
+    /// Tracks whose maximum the bandwidth lowers by more than 10 %.
+    #[serde(default)]
+    pub smeared: Vec<Smear>,
 }
 
 /// One order of [`OrderTracks`]: x = A cos(νθ + φ).
@@ -58,6 +63,7 @@ pub fn order_tracks(
     let lowest = orders.iter().copied().fold(f64::INFINITY, f64::min);
     check(!orders.is_empty(), "number of orders", "one or more", 0.0)?;
     check(lowest > 0.0, "order", "more than 0", lowest)?;
+    check(width <= lowest, "bandwidth in orders", "at most the lowest order tracked", width)?;
     let unknowns = record.len() as f64 * orders.len() as f64;
     let expected = "at most 1e7: a shorter part of the record, fewer orders or a lower sampling rate";
     check(unknowns <= MAX_UNKNOWNS, "samples times orders", expected, unknowns)?;
@@ -78,15 +84,26 @@ pub fn order_tracks(
     let stride = ((sample_rate / (POINTS_PER_CHANGE * widest)) as usize).max(1);
     let places: Vec<usize> = range.clone().step_by(stride).collect();
     let rms = |x: &[f64]| (x.iter().map(|v| v * v).sum::<f64>() / x.len() as f64).sqrt();
-    let tracks = found.orders[..orders.len()].iter().map(|envelope| OrderTrack {
+    let envelopes = &found.orders[..orders.len()];
+    let tracks = envelopes.iter().map(|envelope| OrderTrack {
         order: envelope.order,
         amplitude: places.iter().map(|&n| envelope.amplitude[n].norm()).collect(),
         phase: places.iter().map(|&n| envelope.amplitude[n].arg()).collect(),
     });
+    let times: Vec<f64> = places.iter().map(|&n| n as f64 / sample_rate).collect();
+    let rpm: Vec<f64> =
+        places.iter().map(|&n| 60.0 * mean_speed(theta, sample_rate, n, speed[n], width)).collect();
+    let smeared = envelopes.iter().filter_map(|envelope| {
+        let amplitude: Vec<Complex<f64>> = places.iter().map(|&n| envelope.amplitude[n]).collect();
+        let band = |k: usize| (width * rpm[k] / 60.0).max(min_hertz);
+        let (highest, loss) = loss_by_filter(&times, &amplitude, band)?;
+        Some(Smear { order: envelope.order, rpm: rpm[highest], loss })
+    });
     Ok(OrderTracks {
-        times: places.iter().map(|&n| n as f64 / sample_rate).collect(),
-        rpm: places.iter().map(|&n| 60.0 * mean_speed(theta, sample_rate, n, speed[n], width)).collect(),
+        smeared: smeared.collect(),
         tracks: tracks.collect(),
+        times,
+        rpm,
         bandwidth: width,
         min_bandwidth_hz: min_hertz,
         rms: [rms(&record[range.clone()]), rms(&found.remainder[range])],

@@ -1,5 +1,9 @@
 //! Shaft angle and speed from the pulses of a tacho, with pulses missing, added or shaken.
 
+pub mod alias;
+
+use std::collections::VecDeque;
+
 use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record};
 use rotordyn_linalg::pchip::Pchip;
@@ -12,9 +16,21 @@ const MISSING_COST: f64 = 1.3;
 /// Cost of dropping a pulse: one in the middle of an interval saves 2 ln 2.
 const DROPPED_COST: f64 = 1.0;
 
+/// Typical intervals between pulses over which a channel has its local lowest and highest value.
+const ENVELOPE_INTERVALS: f64 = 4.0;
+/// Change of the middle between them over the span of a pulse, above which the level follows it.
+const DRIFT: f64 = 0.15;
+/// Samples in the time of a pulse below which pulses are not resolved.
+const MIN_SAMPLES: f64 = 3.0;
+/// Median relative change of speed from one interval to the next, and share of repaired pulses, above which together pulses
+/// are not those of a shaft: noise has 0.2 and 0.25, a wheel of uneven teeth changes without repairs.
+const MOST_CHANGE: f64 = 0.12;
+const MOST_REPAIRS: f64 = 0.15;
+
 /// Times at which a tacho channel rises through a level, by linear interpolation, with hysteresis.
 ///
-/// `record` (N), `sample_rate` \[Hz\]. `level` `None` takes the middle between the 1 % and 99 % values; after a pulse
+/// `record` (N), `sample_rate` \[Hz\]. `level` `None` takes the middle between the 1 % and 99 % values, or, of a channel
+/// that drifts by more than 0.15 of its pulses, the middle between the local extremes; after a pulse
 /// the channel must fall `hysteresis` (a fraction of that span) below the level before the next counts.
 /// Errors: NaN, a channel that does not move, hysteresis not in 0..0.5.
 pub fn rising_edges(
@@ -35,8 +51,20 @@ pub fn rising_edges(
         (low, high) = (sorted[0], sorted[last]);
     }
     check(high > low, "span of the tacho channel", "more than zero", high - low)?;
-    let level = level.unwrap_or(0.5 * (low + high));
-    let rearm = level - hysteresis * (high - low);
+    let edges =
+        crossings(record, sample_rate, level.unwrap_or(0.5 * (low + high)), hysteresis * (high - low));
+    if level.is_some() {
+        return Ok(edges);
+    }
+    Ok(match without_drift(record, sample_rate, &edges) {
+        Some((steady, span)) => crossings(&steady, sample_rate, 0.0, hysteresis * span),
+        None => edges,
+    })
+}
+
+/// Rising passages of a level, each after a value below it by `fall`.
+fn crossings(record: &[f64], sample_rate: f64, level: f64, fall: f64) -> Vec<f64> {
+    let rearm = level - fall;
     let mut armed = record[0] < level;
     let mut edges = Vec::new();
     for (n, pair) in record.windows(2).enumerate() {
@@ -47,7 +75,84 @@ pub fn rising_edges(
             armed = false;
         }
     }
-    Ok(edges)
+    edges
+}
+
+/// A drifting channel less the middle between its local extremes, and the span of its pulses; `None` without drift.
+///
+/// Extremes over four typical intervals. Where they span less than half of the usual there is no pulse, and the middle is
+/// that before (or behind).
+fn without_drift(record: &[f64], sample_rate: f64, edges: &[f64]) -> Option<(Vec<f64>, f64)> {
+    let median = |mut values: Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        values.get(values.len() / 2).copied()
+    };
+    let interval = median(edges.windows(2).map(|w| w[1] - w[0]).collect())? * sample_rate;
+    let reach = (0.5 * ENVELOPE_INTERVALS * interval).ceil() as usize;
+    if 8 * reach > record.len() {
+        return None;
+    }
+    let high = running_maximum(record, reach);
+    let negative: Vec<f64> = record.iter().map(|v| -v).collect();
+    let low: Vec<f64> = running_maximum(&negative, reach).iter().map(|v| -v).collect();
+    let spans: Vec<f64> = high.iter().zip(&low).map(|(h, l)| h - l).collect();
+    let span = median(spans.clone())?;
+    let has_pulse = |n: usize| spans[n] > 0.5 * span;
+    let mut middle: Vec<f64> = high.iter().zip(&low).map(|(h, l)| 0.5 * (h + l)).collect();
+    let mut sorted: Vec<f64> = (0..record.len()).filter(|n| has_pulse(*n)).map(|n| middle[n]).collect();
+    sorted.sort_by(f64::total_cmp);
+    let [from, to] = [0.05, 0.95].map(|share| sorted[(share * (sorted.len() - 1) as f64) as usize]);
+    if to - from <= DRIFT * span {
+        return None;
+    }
+    let mut last = middle[(0..record.len()).find(|n| has_pulse(*n))?];
+    for (n, value) in middle.iter_mut().enumerate() {
+        if has_pulse(n) {
+            last = *value;
+        }
+        *value = last;
+    }
+    // The extremes go in steps: their mean over as many samples does not.
+    let mut sums = vec![0.0];
+    for value in &middle {
+        sums.push(sums[sums.len() - 1] + value);
+    }
+    let steady = record.iter().enumerate().map(|(n, x)| {
+        let (a, b) = (n.saturating_sub(reach), (n + reach + 1).min(record.len()));
+        x - (sums[b] - sums[a]) / (b - a) as f64
+    });
+    Some((steady.collect(), span))
+}
+
+/// Largest value within `reach` samples on either side.
+fn running_maximum(values: &[f64], reach: usize) -> Vec<f64> {
+    // Places of values that are the largest of what follows, falling.
+    let mut queue: VecDeque<usize> = VecDeque::new();
+    let mut next = 0;
+    (0..values.len())
+        .map(|n| {
+            while next < values.len().min(n + reach + 1) {
+                while queue.back().is_some_and(|&k| values[k] <= values[next]) {
+                    queue.pop_back();
+                }
+                queue.push_back(next);
+                next += 1;
+            }
+            while queue.front().is_some_and(|&k| k + reach < n) {
+                queue.pop_front();
+            }
+            queue.front().map_or(values[n], |&k| values[k])
+        })
+        .collect()
+}
+
+/// Whether pulse times \[s\] lie on the grid of the samples: steps that a channel sampled at this rate \[Hz\] shows no better.
+///
+/// The mean of e^(2πj f_s t) over the pulses, 1 on a grid and 1/√N without one, is above 0.9.
+pub fn lie_on_the_grid(times: &[f64], sample_rate: f64) -> bool {
+    let turn = |t: &f64| (std::f64::consts::TAU * (t * sample_rate).rem_euclid(1.0)).sin_cos();
+    let [sine, cosine] = times.iter().map(turn).fold([0.0, 0.0], |sum, (s, c)| [sum[0] + s, sum[1] + c]);
+    times.len() > 10 && sine.hypot(cosine) > 0.9 * times.len() as f64
 }
 
 /// Pulses of a tacho with the turns of the shaft at each.
@@ -91,6 +196,38 @@ impl PulseTrain {
             times: kept.iter().map(|&k| times[k]).collect(),
             revolutions,
         })
+    }
+
+    /// Why these are not the pulses of a shaft; `None` if they may be. `given`: pulses before repair.
+    ///
+    /// Repairs of more than half the pulses; or of more than a seventh with a speed that changes by 12 % from one interval to
+    /// the next on the median: a start from rest does so over a few intervals only.
+    pub fn implausible(&self, given: usize) -> Option<String> {
+        let repairs = (self.missing + self.dropped) as f64 / given.max(1) as f64;
+        let (_, speeds) = self.speeds_rpm();
+        let mut changes: Vec<f64> = speeds.windows(2).map(|w| (w[1] / w[0]).ln().abs()).collect();
+        changes.sort_by(f64::total_cmp);
+        let change = changes.get(changes.len() / 2).copied().unwrap_or(0.0);
+        if repairs <= 0.5 && (repairs <= MOST_REPAIRS || change <= MOST_CHANGE) {
+            return None;
+        }
+        Some(format!(
+            "of {given} pulses {} would be false and {} missing, and the speed would change by {:.0} % from one to the next: \
+             this is no train of pulses of a shaft",
+            self.dropped,
+            self.missing,
+            100.0 * change.exp_m1()
+        ))
+    }
+
+    /// Samples of a tacho channel in the time of a pulse, if so few that its pulses are not resolved: below 3 on the median.
+    pub fn unresolved(&self, sample_rate: f64) -> Option<f64> {
+        let pitch = self.revolutions.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
+        let pairs = self.times.windows(2).zip(self.revolutions.windows(2));
+        let mut samples: Vec<f64> =
+            pairs.map(|(t, r)| (t[1] - t[0]) * sample_rate * pitch / (r[1] - r[0])).collect();
+        samples.sort_by(f64::total_cmp);
+        samples.get(samples.len() / 2).copied().filter(|samples| *samples < MIN_SAMPLES)
     }
 
     /// Mean speed over each interval \[rpm\], and the interval's middle \[s\].

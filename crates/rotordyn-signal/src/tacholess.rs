@@ -12,6 +12,11 @@ use super::segment::Level;
 use super::stft::{Stft, StftSettings, interpolate_at};
 use super::window::WindowKind;
 
+/// Frames from one to the next without overlap.
+const HOPS_PER_FRAME: usize = 8;
+/// Height of a peak over the usual one below which a path has lost its line.
+const JUMP_HEIGHT: f64 = 0.15;
+
 /// Settings of tacholess speed estimation: the order line that is tracked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpeedLineSettings {
@@ -33,6 +38,11 @@ pub struct EstimatedSpeed {
     pub theta: Vec<f64>,
     /// Shaft speed at each sample \[rpm\].
     pub rpm: Vec<f64>,
+    /// Amplitude of the line over the median of what lies around it up to twice its frequency range, median over the frames:
+    /// the highest of noise has 2 to 3.
+    pub over_background: f64,
+    /// Ratio of frequencies of the largest jump from one line to another, through what is no line; 1 without a jump.
+    pub jump: f64,
 }
 
 /// Ridge extraction: the path of largest Σ ln A through the rows of a spectrogram that moves at most
@@ -115,7 +125,7 @@ pub fn speed_from_line(
     )?;
     check(most_change > 0.0, "maximum rate of change of the line [Hz/s]", "a positive number", most_change)?;
     check(frame >= 16, "samples of a frame", "16 or more", frame as f64)?;
-    let hop = frame.div_ceil(8);
+    let hop = frame.div_ceil(HOPS_PER_FRAME);
     let stft = StftSettings {
         window: WindowKind::Hann,
         length: frame,
@@ -127,6 +137,9 @@ pub fn speed_from_line(
     let per_bin = map.frequencies[1];
     let most_bins = (most_change * hop as f64 / sample_rate / per_bin).ceil() as usize;
     let path = extract_ridge(&map.frequencies, &map.amplitude, (low, high), most_bins.max(1))?;
+    let heights = over_background(&map.frequencies, &map.amplitude, &path, (low, high));
+    let over_background = median(heights.clone()).unwrap_or(f64::INFINITY);
+    let jump = largest_jump(&path, &heights, over_background);
     let places: Vec<f64> = path.iter().map(|p| p.position).collect();
     // Frame k is centred at sample k hop + frame/2.
     let at = |n: usize| interpolate_at(&places, (n as f64 - 0.5 * frame as f64) / hop as f64);
@@ -161,5 +174,43 @@ pub fn speed_from_line(
         let (a, b) = (n.saturating_sub(1), (n + 1).min(last));
         (theta[b] - theta[a]) * sample_rate / (b - a).max(1) as f64 * 60.0 / TAU
     };
-    Ok(EstimatedSpeed { rpm: (0..=last).map(speed).collect(), theta })
+    Ok(EstimatedSpeed { rpm: (0..=last).map(speed).collect(), theta, over_background, jump })
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+/// For every row a peak's amplitude over the median of the bins outside its main lobe, from half the lower to twice the upper
+/// end of a range.
+fn over_background(axis: &[f64], amplitude: &[f64], path: &[Peak], (low, high): (f64, f64)) -> Vec<f64> {
+    // Frames are padded to twice their length.
+    let lobe = 2 * WindowKind::Hann.main_lobe_half_width() as usize;
+    let first = axis.partition_point(|f| *f < 0.5 * low).max(lobe);
+    let end = axis.partition_point(|f| *f <= 2.0 * high);
+    let ratio = |(row, peak): (&[f64], &Peak)| {
+        let apart = (first..end).filter(|k| k.abs_diff(peak.bin) > lobe).map(|k| row[k]).collect();
+        median(apart).map_or(f64::INFINITY, |noise| peak.amplitude / noise.max(f64::MIN_POSITIVE))
+    };
+    amplitude.chunks_exact(axis.len()).zip(path).map(ratio).collect()
+}
+
+/// Largest ratio of the frequencies before and behind places where the path loses its line: heights below a seventh of the
+/// usual one. Two frames lie between.
+fn largest_jump(path: &[Peak], heights: &[f64], usual: f64) -> f64 {
+    let (mut largest, mut k) = (1.0f64, 0);
+    while k < path.len() {
+        let lost = heights[k..].iter().take_while(|height| **height < JUMP_HEIGHT * usual).count();
+        if lost > 0 {
+            let before = path[k.saturating_sub(HOPS_PER_FRAME)].position;
+            let behind = path[(k + lost - 1 + HOPS_PER_FRAME).min(path.len() - 1)].position;
+            // A line that fades may move on meanwhile.
+            if lost <= 2 * HOPS_PER_FRAME {
+                largest = largest.max((behind / before).max(before / behind));
+            }
+        }
+        k += lost.max(1);
+    }
+    largest
 }

@@ -1,11 +1,13 @@
 //! Window functions of a finite Fourier transform.
 
-use std::f64::consts::TAU;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{PI, TAU};
 
 /// Window function.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum WindowKind {
     Rectangular,
+    #[default]
     Hann,
     Hamming,
     Blackman,
@@ -44,6 +46,29 @@ impl WindowKind {
         (0..length).map(value).collect()
     }
 
+    /// Line shape: the level of a tone at a distance of `offset` bins of 1/T, over that at the bin.
+    ///
+    /// W(δ)/W(0) = sinc δ Σ_k (−1)ᵏ a_k/a₀ δ²/(δ² − k²), sinc δ = sin πδ/πδ, the limit of many samples (error of order 1/N²); at
+    /// δ = ±k it is a_k/2a₀.
+    pub fn line_shape(self, offset: f64) -> f64 {
+        let coefficients = self.coefficients();
+        let nearest = offset.round();
+        // A zero of the sine meets a pole, or is a zero.
+        if (offset - nearest).abs() < 1e-7 {
+            return match nearest.abs() as usize {
+                0 => 1.0,
+                k => coefficients.get(k).map_or(0.0, |a| 0.5 * a / coefficients[0]),
+            };
+        }
+        let square = offset * offset;
+        let term = |(k, a): (usize, &f64)| {
+            let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+            sign * a * square / (square - (k * k) as f64)
+        };
+        let sum: f64 = coefficients.iter().enumerate().map(term).sum();
+        (PI * offset).sin() / (PI * offset) * sum / coefficients[0]
+    }
+
     /// Half the width of the main lobe, in bins of 1/T: the smallest resolvable spacing of two tones.
     pub fn main_lobe_half_width(self) -> f64 {
         self.coefficients().len() as f64
@@ -60,4 +85,30 @@ pub fn noise_bandwidth(window: &[f64]) -> f64 {
     let sum: f64 = window.iter().sum();
     let power: f64 = window.iter().map(|w| w * w).sum();
     window.len() as f64 * power / (sum * sum)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The line shape against the sum over the samples of a long window.
+    #[test]
+    fn line_shape_is_the_transform_of_the_samples() {
+        use WindowKind::*;
+        for kind in [Rectangular, Hann, Hamming, Blackman, FlatTop] {
+            let samples = kind.samples(4096);
+            let total: f64 = samples.iter().sum();
+            for step in -36..=36 {
+                let offset = f64::from(step) / 8.0;
+                // Symmetric about N/2: the transform is real there.
+                let at = |(n, w): (usize, &f64)| w * (TAU * offset * (n as f64 / 4096.0 - 0.5)).cos();
+                let sum: f64 = samples.iter().enumerate().map(at).sum();
+                let shape = kind.line_shape(offset);
+                // One end of an odd number of points stands for both: an error of w_0/N.
+                assert!((shape - sum / total).abs() < 2.5e-4, "{kind:?} {offset}: {shape} {}", sum / total);
+            }
+            let energy: f64 = (-4..=4).map(|k| kind.line_shape(f64::from(k)).powi(2)).sum();
+            assert!((energy - noise_bandwidth(&samples)).abs() < 1e-9, "{kind:?}");
+        }
+    }
 }

@@ -80,7 +80,7 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
         channels.iter().map(|channel| analyse_channel(channel, &shaft, rated.as_ref(), &settings)).collect();
     let results = results?;
     let other = match results.first() {
-        Some(first) => compare_records::second_record(args, first, &settings, &mut findings.warnings)?,
+        Some(first) => compare_records::second_record(args, first, &settings, &mut findings)?,
         None => None,
     };
     spinner.finish_and_clear();

@@ -1,6 +1,7 @@
 //! Orders asked for by number or by name: 7, 1x, BPFO, "2 BPFO".
 
 use rotordyn::results::{BearingWithOrders, OrderLine, SignalResult};
+use rotordyn::signal::order::smear::Smear;
 use rotordyn::signal::order_tracks::orders_in_one_band;
 use rotordyn::signal::tacho_jitter::JitterLeak;
 
@@ -37,11 +38,53 @@ pub fn one_band_warnings(result: &SignalResult) -> Vec<String> {
     orders_in_one_band(&orders, tracks.bandwidth).into_iter().map(text).collect()
 }
 
-/// A warning for every tracked order that has a part of a stronger one by the tacho's jitter.
+/// A warning for every cut and track whose maximum its window or bandwidth lowers.
+pub fn smear_warnings(result: &SignalResult) -> Vec<String> {
+    let Some(found) = &result.orders else { return Vec::new() };
+    let place = |smear: &Smear| {
+        let line = found.cuts.iter().find(|(line, _)| line.order == smear.order);
+        let label =
+            line.map_or_else(|| format!("{}x", number(smear.order, 4)), |(line, _)| line.label.clone());
+        format!("{}: the maximum of {label} at {:.0} rpm", result.channel, smear.rpm)
+    };
+    let resolution = found.map.orders.get(1).copied().unwrap_or(1.0);
+    let cut = |smear: &Smear| {
+        format!(
+            "{} is {:.0} % or more too low in the cut: the amplitude changes within the window of {} revolutions; \
+             --order-resolution {} halves it",
+            place(smear),
+            100.0 * smear.least_loss(),
+            number(1.0 / resolution, 3),
+            number((2.0 * resolution).min(1.0), 3)
+        )
+    };
+    let track = |(smear, width): (&Smear, f64)| {
+        format!(
+            "{} is {:.0} % or more too low in the track: the amplitude changes faster than the bandwidth of {} orders lets \
+             through; --bandwidth {} or more shows it",
+            place(smear),
+            100.0 * smear.least_loss(),
+            number(width, 3),
+            number(3.0 * width, 3)
+        )
+    };
+    let tracks = found.tracks.iter().flat_map(|t| t.smeared.iter().map(|smear| (smear, t.bandwidth)));
+    found.map.smeared.iter().map(cut).chain(tracks.map(track)).collect()
+}
+
+/// A warning for every order that the tacho's jitter lowers, or that has a part of a stronger one by it.
 pub fn jitter_warnings(result: &SignalResult) -> Vec<String> {
     let Some(found) = &result.orders else { return Vec::new() };
     let label = |track: usize| &found.cuts[track].0.label;
     let warning = |leak: &JitterLeak| {
+        if leak.track == leak.neighbour {
+            return format!(
+                "{}: {} is up to {:.0} % too low: the shaft angle from the tacho pulses jitters",
+                result.channel,
+                label(leak.track),
+                100.0 * leak.leak / (leak.leak + leak.amplitude)
+            );
+        }
         format!(
             "{}: of the amplitude {} read for {} about {} (RMS over the run) is of {}: the jitter of the tacho pulses modulates it",
             result.channel,

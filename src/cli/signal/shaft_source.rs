@@ -4,15 +4,25 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use rotordyn::signal::record::{Points, Record};
-use rotordyn::signal::tacho::{PulseTrain, rising_edges};
+use rotordyn::signal::tacho::alias::aliased_speed;
+use rotordyn::signal::tacho::{PulseTrain, lie_on_the_grid, rising_edges};
+use rotordyn::signal::tacho_jitter::Jitter;
 use rotordyn::study::signal::{ShaftMotion, SignalChannel};
 use rotordyn::units::FREQUENCY;
+use rotordyn::warning::Code;
 
 use super::super::args::ShaftArgs;
+use super::super::terminal::number;
 use super::input::{File, InputProblems, plain_name};
 
 /// Pulses on either side used to smooth tacho jitter, if requested.
 const SMOOTHING: usize = 4;
+/// Jitter of the shaft angle \[rad\] by the grid of the samples above which it is smoothed unasked: an error of 5 % at 10x.
+const GRID_JITTER: f64 = 0.04;
+/// Share of a record outside the pulses that is named.
+const UNCOVERED: f64 = 0.02;
+/// Records whose shaft orders are compared with the pulses.
+const COMPARED: usize = 4;
 /// Trigger hysteresis as a fraction of the tacho signal's range.
 const HYSTERESIS: f64 = 0.2;
 
@@ -84,8 +94,8 @@ impl ShaftSource {
             ShaftSource::Pulses { train, smoothing, source, .. } => {
                 let times = train.times.iter().map(|t| t - channel.start).collect();
                 let train = PulseTrain { times, ..train.clone() };
-                ShaftMotion::from_pulses(&train, rate, samples.len(), *smoothing, source.clone())
-                    .map_err(message)?
+                let source = format!("{source}{}", coverage(&train.times, channel));
+                ShaftMotion::from_pulses(&train, rate, samples.len(), *smoothing, source).map_err(message)?
             }
             ShaftSource::Line { order, range, source } => {
                 ShaftMotion::from_order_line(samples, rate, *order, *range, source.clone())
@@ -119,6 +129,19 @@ impl ShaftSource {
             }
         }))
     }
+}
+
+/// Which part of a record the pulses cover, if not nearly all of it; `times` from its first sample.
+fn coverage(times: &[f64], channel: &SignalChannel) -> String {
+    let duration = channel.samples.len() as f64 / channel.sample_rate;
+    let [from, to] = [times.first(), times.last()].map(|t| t.copied().unwrap_or(0.0).clamp(0.0, duration));
+    // A pulse more might lie at either end.
+    let pitch = (to - from) / times.len().max(2) as f64;
+    if duration - (to - from) <= (UNCOVERED * duration).max(2.5 * pitch) {
+        return String::new();
+    }
+    let [from, to, start, end] = [from, to, 0.0, duration].map(|t| number(channel.start + t, 4));
+    format!("; they cover {from} to {to} s only of the record from {start} to {end} s, the rest is left out")
 }
 
 /// Order line to track in the record, `ORDER=LOW .. HIGH`.
@@ -172,7 +195,7 @@ fn tacho(
             return None;
         }
     };
-    let times = pulse_times(record, rate, findings)?;
+    let (times, sampled_at) = pulse_times(record, rate, findings)?;
     if times.len() < 3 {
         findings.problem(format!(
             "--tacho: `{}` has {} pulses, at least 3 are needed for a speed; check that it is the tacho channel",
@@ -190,17 +213,81 @@ fn tacho(
             times.len()
         ));
     }
+    if let Some(problem) = train.implausible(times.len()) {
+        findings.problem(format!("--tacho `{}`: {problem}; check that it is the tacho channel", record.name));
+        return None;
+    }
+    let mut smoothing = args.smooth_tacho.then_some(SMOOTHING);
+    if let Some(pulse_rate) = sampled_at {
+        if let Some(samples) = train.unresolved(pulse_rate) {
+            findings.problem(format!(
+                "--tacho `{}`: its pulses are {samples:.2} samples apart, they are not resolved (at least 3 are needed); sample it \
+                 faster, or use fewer pulses per revolution",
+                record.name
+            ));
+            return None;
+        }
+        let others = file.time_records().filter(|other| other.name != record.name).take(COMPARED);
+        let speeds = others.filter_map(|other| true_speed(other, &train, pulse_rate, args.pulses_per_rev));
+        if let Some((name, speed)) = speeds.last() {
+            findings.warn_of(
+                Code::TachoJitter,
+                format!(
+                    "tacho: its pulses may be aliased: `{name}` has the shaft orders of {} rpm, not those of the pulses; at that \
+                     speed there are {} pulses per second, more than half the {} samples per second of the tacho",
+                    number(60.0 * speed, 4),
+                    number(speed * args.pulses_per_rev as f64, 4),
+                    number(pulse_rate, 4)
+                ),
+            );
+        }
+        let jitter = findings.value_or_problem("--tacho: ", Jitter::of_pulses(&train))?;
+        let coarse = jitter.filter(|j| j.angle > GRID_JITTER && lie_on_the_grid(&train.times, pulse_rate));
+        if let Some(jitter) = coarse.filter(|_| smoothing.is_none()) {
+            smoothing = Some(SMOOTHING);
+            findings.warn_of(
+                Code::TachoJitter,
+                format!(
+                    "tacho: its pulses are known to a sample of {} ms only, so that the shaft angle jitters by {} deg; it is \
+                     smoothed over {SMOOTHING} pulses on either side, to {} deg",
+                    number(1000.0 / pulse_rate, 3),
+                    number(jitter.angle.to_degrees(), 2),
+                    number(jitter.smoothed_angle(SMOOTHING).to_degrees(), 2)
+                ),
+            );
+        }
+    }
     let source = format!("{source}, {} per revolution", args.pulses_per_rev);
-    let smoothing = args.smooth_tacho.then_some(SMOOTHING);
     Some(ShaftSource::Pulses { train, per_revolution: args.pulses_per_rev, smoothing, source })
 }
 
-/// Pulse times \[s\]: given as values, or the rising edges of a channel.
-fn pulse_times(record: &Record, rate: Option<&str>, findings: &mut InputProblems) -> Option<Vec<f64>> {
+/// Name of a record with the shaft orders of another speed, of which the pulses are an alias, and that speed.
+fn true_speed(
+    record: &Record,
+    train: &PulseTrain,
+    pulse_rate: f64,
+    per_revolution: usize,
+) -> Option<(String, f64)> {
+    let (values, rate) = (record.time_samples().ok()?, record.sample_rate().ok()?);
+    let start = match record.axis.points {
+        Points::Uniform { start, .. } => start,
+        _ => 0.0,
+    };
+    let times: Vec<f64> = train.times.iter().map(|t| t - start).collect();
+    let speed = aliased_speed(values, rate, [&times, &train.revolutions], pulse_rate, per_revolution)?;
+    Some((record.name.clone(), speed))
+}
+
+/// Pulse times \[s\]: given as values, or the rising edges of a channel, with its sampling rate \[Hz\].
+fn pulse_times(
+    record: &Record,
+    rate: Option<&str>,
+    findings: &mut InputProblems,
+) -> Option<(Vec<f64>, Option<f64>)> {
     let values = findings.value_or_problem("--tacho: ", record.time_samples())?;
     let rising = values.windows(2).all(|w| w[1] > w[0]);
     if record.axis.points == Points::Unknown && rising {
-        return Some(values.to_vec());
+        return Some((values.to_vec(), None));
     }
     let rate = match (record.sample_rate(), rate) {
         (Ok(rate), _) => rate,
@@ -221,7 +308,7 @@ fn pulse_times(record: &Record, rate: Option<&str>, findings: &mut InputProblems
         return None;
     }
     let edges = findings.value_or_problem("--tacho: ", rising_edges(values, rate, None, HYSTERESIS))?;
-    Some(edges.into_iter().map(|t| t + start).collect())
+    Some((edges.into_iter().map(|t| t + start).collect(), Some(rate)))
 }
 
 /// Shaft angle, speed over time or constant speed stated in the file.
@@ -250,4 +337,32 @@ pub fn stated_in_file(file: &File) -> Option<ShaftSource> {
         (rpm > 0.0).then(|| ShaftSource::Steady(rpm / 60.0, "as the file states".into()))
     };
     angle.or_else(speed).or_else(rpm).or_else(stated)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pulses that leave out an end of a record say so; those of nearly all of it do not.
+    #[test]
+    fn pulses_that_cover_a_part_are_named() {
+        let channel = SignalChannel {
+            name: "a".into(),
+            unit: String::new(),
+            sample_rate: 1000.0,
+            start: 5.0,
+            samples: vec![0.0; 10_000],
+            orthogonal: None,
+        };
+        let pulses = |from: f64, to: f64| -> Vec<f64> {
+            (0..=200).map(|k| from + (to - from) * f64::from(k) / 200.0).collect()
+        };
+        assert_eq!(coverage(&pulses(0.04, 9.97), &channel), "");
+        assert_eq!(coverage(&pulses(-3.0, 12.0), &channel), "");
+        assert_eq!(
+            coverage(&pulses(0.04, 6.0), &channel),
+            "; they cover 5.04 to 11 s only of the record from 5 to 15 s, the rest is left out"
+        );
+        assert!(coverage(&pulses(2.0, 9.99), &channel).contains("7 to 14.99 s only"));
+    }
 }

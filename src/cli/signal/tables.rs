@@ -5,13 +5,15 @@ use rotordyn::io::measured::run_up::is_rotation_signal;
 use rotordyn::results::{JerkResult, RaceResult, ShaftAverage, ShaftOrders, SignalResult};
 use rotordyn::signal::kurtogram::BandChoice;
 use rotordyn::signal::race_defects::DefectKind;
-use rotordyn::signal::ridge::find_peaks;
+use rotordyn::signal::ridge::find_hann_lines;
 use rotordyn::signal::spectrum::Spectrum;
+use rotordyn::warning::Code;
 
 use super::super::printed;
 use super::super::terminal::{Terminal, number};
 use super::input::File;
 use super::line_tables;
+use super::orders::smear_warnings;
 use super::record_speed;
 
 /// Largest number of rows of the channel list.
@@ -127,6 +129,7 @@ pub fn channel(terminal: &Terminal, result: &SignalResult) {
     }
     if let Some(orders) = &result.orders {
         cuts(terminal, result, orders);
+        smear_warnings(result).into_iter().for_each(|text| terminal.warn_of(Code::OrderSmear, text));
     }
     if let Some(average) = &result.average {
         synchronous_average(terminal, result, average);
@@ -142,7 +145,7 @@ pub fn channel(terminal: &Terminal, result: &SignalResult) {
 
 /// The highest lines of a spectrum.
 fn peaks(terminal: &Terminal, result: &SignalResult, spectrum: &Spectrum) {
-    let mut found = find_peaks(&spectrum.frequencies, &spectrum.values, 0.0).unwrap_or_default();
+    let mut found = find_hann_lines(&spectrum.frequencies, &spectrum.values, 0.0).unwrap_or_default();
     found.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
     let steady = result.shaft.as_ref().filter(|s| s.steady);
     let rows: Vec<Vec<String>> = found

@@ -13,7 +13,8 @@ mod search;
 mod spectrum;
 mod undamped;
 
-pub use crossing::{CriticalSpeed, CrossingList, UncertainRange};
+pub use crossing::{CriticalSpeed, CrossingList, UncertainRange, UnstableMode};
+pub(super) use refine::nearest_eigenpair;
 pub use undamped::undamped_critical_speeds;
 
 use super::campbell::{Campbell, ModeValue, Tangents};

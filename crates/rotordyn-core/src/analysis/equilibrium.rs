@@ -24,6 +24,8 @@ const TOLERANCE: f64 = 1e-11;
 const ACCEPTED: f64 = 1e-9;
 /// Multiple of the mass matrix in the tangent that remains at the solution \[1/s²\].
 const LEAST_SHIFT: f64 = 1e-4;
+/// Multiples of it where the tangent is singular to round-off.
+const LARGER_SHIFTS: [f64; 3] = [1e3, 1e6, 1e9];
 const MAX_ITERATIONS: usize = 200;
 /// Steps without progress near convergence after which Newton's method ends.
 const STALLED: usize = 3;
@@ -240,10 +242,15 @@ fn solve(
 
     let factor = |reactions: &[Reaction], shift: f64| {
         let tangent = layout.scatter(&bearing_stiffness_matrix(assembly, reactions));
-        let values = (0..tangent.len()).map(|k| stiffness[k] + tangent[k] + shift * mass[k]).collect();
-        layout
-            .factor::<f64>(values)
-            .map_err(|p| PhysicsError::Singular { motion: motion_of(assembly, p.unknown) })
+        let shifted = |shift: f64| {
+            let values = (0..tangent.len()).map(|k| stiffness[k] + tangent[k] + shift * mass[k]).collect();
+            layout.factor::<f64>(values)
+        };
+        // In small machines, whose natural frequencies are high, the free rotation needs more.
+        let larger = || LARGER_SHIFTS.iter().find_map(|factor| shifted(factor * shift).ok());
+        shifted(shift).or_else(|p| {
+            larger().ok_or_else(|| PhysicsError::Singular { motion: motion_of(assembly, p.unknown) })
+        })
     };
 
     let mut q = start.map_or_else(|| vec![0.0; n], <[f64]>::to_vec);

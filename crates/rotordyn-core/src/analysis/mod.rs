@@ -33,6 +33,7 @@ pub mod belt_pull;
 pub mod campbell;
 pub mod critical_map;
 pub mod critical_speed;
+pub mod divergence;
 pub mod equilibrium;
 pub mod equilibrium_path;
 pub mod frf;

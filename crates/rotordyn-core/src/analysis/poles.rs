@@ -1,9 +1,10 @@
 //! Poles of frequency responses and of the unbalance response: where they peak, and how wide.
 
 use super::campbell::Tangents;
-use super::critical_speed::{self, CriticalSpeed};
+use super::critical_speed::{self, CriticalSpeed, UnstableMode};
 use super::modal::{self, Mode};
 use super::mode::{ModeKind, inner};
+use super::stability;
 use crate::assembly::{Assembly, LinearSystem, PhysicsError};
 use rayon::prelude::*;
 use rotordyn_linalg::Complex64;
@@ -50,6 +51,13 @@ impl Pole {
         self.damping_ratio.abs() < UNDAMPED
     }
 
+    /// Whether the mode of an FRF grows by more than round-off.
+    pub fn is_unstable(&self) -> bool {
+        let omega = std::f64::consts::TAU * self.at;
+        let zeta = self.damping_ratio;
+        stability::is_unstable(Complex64::new(-zeta * omega, omega))
+    }
+
     /// Whether a force excites the mode: |φᴴ F| above round-off of |φ| |F|.
     pub fn is_excited_by(&self, force: &[Complex64]) -> bool {
         let size = |v: &[Complex64]| inner(v, v).re.sqrt();
@@ -82,8 +90,8 @@ pub fn frf_poles(assembly: &Assembly, system: &LinearSystem, max_hz: f64) -> Res
 }
 
 /// Poles of the unbalance response from one speed to another \[rad/s\] and a little beyond: the critical speeds of
-/// order 1, λ(Ω) with Im λ = Ω; half-width |Re λ|/|1 − dω/dΩ|. `nodes`: as in
-/// [`critical_speeds`](critical_speed::critical_speeds).
+/// order 1, λ(Ω) with Im λ = Ω; half-width |Re λ|/|1 − dω/dΩ|. And the unstable modes at speeds of the range. `nodes`: as
+/// in [`critical_speeds`](critical_speed::critical_speeds).
 ///
 /// # Errors
 /// As [`critical_speeds`](critical_speed::critical_speeds).
@@ -92,9 +100,9 @@ pub fn synchronous_poles(
     [low, high]: [f64; 2],
     tangents: &impl Tangents,
     nodes: &[f64],
-) -> Result<Vec<Pole>, PhysicsError> {
+) -> Result<(Vec<Pole>, Vec<UnstableMode>), PhysicsError> {
     if high <= low || high <= 0.0 {
-        return Ok(Vec::new());
+        return Ok((Vec::new(), Vec::new()));
     }
     let margin = MARGIN * (high - low);
     let range = [(low - margin).max(0.0), high + margin];
@@ -104,5 +112,7 @@ pub fn synchronous_poles(
         let half_width = critical.mode.eigenvalue.re / (1.0 - slope).abs().max(SMALLEST_ANGLE);
         Ok(Pole::of(&critical.mode, critical.speed, half_width))
     };
-    found.list.par_iter().map(pole).collect()
+    let poles = found.list.par_iter().map(pole).collect::<Result<_, PhysicsError>>()?;
+    let is_inside = |mode: &UnstableMode| (low..=high).contains(&mode.speed);
+    Ok((poles, found.unstable.into_iter().filter(is_inside).collect()))
 }

@@ -2,8 +2,9 @@
 
 use super::campbell::{Campbell, EXTRA_MODES, Tangents, Tracker};
 use super::critical_speed::CriticalSpeed;
-use super::modal::Mode;
+use super::modal::{Mode, SHIFT};
 use crate::assembly::{Assembly, PhysicsError};
+use rotordyn_linalg::Complex64;
 use serde::{Deserialize, Serialize};
 
 /// A zero crossing of a mode's damping.
@@ -46,8 +47,8 @@ pub fn thresholds(
         for ([a, b], inner) in ends.into_iter().zip(known) {
             let path = [(range[0], a)].into_iter().chain(inner).chain([(range[1], b)]);
             for step in path.collect::<Vec<_>>().windows(2) {
-                let unstable_above = is_unstable(step[1].1);
-                if is_unstable(step[0].1) != unstable_above {
+                let unstable_above = is_unstable(step[1].1.eigenvalue);
+                if is_unstable(step[0].1.eigenvalue) != unstable_above {
                     // The real part of an undamped mode at one end is round-off of either sign.
                     let [left, right] = [step[0].1, step[1].1].map(|mode| mode.eigenvalue.re > 0.0);
                     let least = if left == right { -UNSTABLE } else { 0.0 };
@@ -62,8 +63,13 @@ pub fn thresholds(
     Ok(found)
 }
 
-fn is_unstable(mode: &Mode) -> bool {
-    mode.zeta() < UNSTABLE
+/// Round-off of ζ of a mode that the eigenvalue solver has from far above its shift, over (|λ|/σ)².
+const ROUND_OFF: f64 = 1e-13;
+
+/// Whether a mode grows by more than the round-off of its eigenvalue.
+pub fn is_unstable(eigenvalue: Complex64) -> bool {
+    let size = eigenvalue.norm();
+    eigenvalue.re > size * (-UNSTABLE).max(ROUND_OFF * (size / SHIFT).powi(2))
 }
 
 /// The crossings within a range of speeds that tell of a threshold, by speed, for each of the branches with these modes at its
@@ -75,7 +81,9 @@ fn between<'a>(
     range: &[f64],
 ) -> Vec<Vec<(f64, &'a Mode)>> {
     let mut known = vec![Vec::new(); ends.len()];
-    let tells = |mode: &Mode| ends.iter().flatten().any(|end| is_unstable(end) != is_unstable(mode));
+    let tells = |mode: &Mode| {
+        ends.iter().flatten().any(|end| is_unstable(end.eigenvalue) != is_unstable(mode.eigenvalue))
+    };
     let inside = |crossing: &&CriticalSpeed| crossing.speed > range[0] && crossing.speed < range[1];
     for crossing in crossings.iter().filter(inside).filter(|crossing| tells(&crossing.mode)) {
         let correlation = |[a, b]: &[&Mode; 2]| {

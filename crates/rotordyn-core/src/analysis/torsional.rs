@@ -6,10 +6,13 @@ use rotordyn_linalg::{SparseMatrix, eigen};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Shift σ that makes K + σ M definite for a shaft free to turn \[rad²/s²\].
-const SHIFT: f64 = 1.0;
-/// ω² below which a mode is the rigid rotation \[rad²/s²\]: above the round-off of the shift.
+/// Least shift σ that makes K + σ M definite for a shaft free to turn \[rad²/s²\], and its part of the square of the lowest
+/// elastic frequency, about Σ K_ii / Σ M_ii / n²: a smaller one loses digits in small machines, whose frequencies are high.
+const LEAST_SHIFT: f64 = 1.0;
+const SHIFT: f64 = 1e-3;
+/// ω² below which a mode is the rigid rotation \[rad²/s²\], and its part of the shift: above the round-off of the shift.
 const RIGID: f64 = 1e-4;
+const RIGID_OF_SHIFT: f64 = 1e-11;
 /// Coupling with other motions, relative to the stiffness of both, above which the modes are not torsional only.
 const COUPLED: f64 = 1e-6;
 
@@ -58,8 +61,10 @@ pub fn torsional_modes(
     };
     let failed =
         |e: eigen::EigenError| PhysicsError::Eigen { speed_rpm: 0.0, reason: format!("torsion: {e}") };
-    let (squares, shapes) = eigen::undamped(&k, &m, SHIFT).map_err(failed)?;
-    let rigid = squares.iter().filter(|square| **square < RIGID).count();
+    let elastic = k.trace() / m.trace() / (own.len() * own.len()) as f64;
+    let shift = LEAST_SHIFT.max(SHIFT * elastic);
+    let (squares, shapes) = eigen::undamped(&k, &m, shift).map_err(failed)?;
+    let rigid = squares.iter().filter(|square| **square < RIGID.max(RIGID_OF_SHIFT * shift)).count();
     let modes = squares.iter().zip(shapes.column_iter()).skip(rigid).take(count).map(|(square, shape)| {
         let mut all = vec![0.0; dofs.len()];
         own.iter().zip(shape.iter()).for_each(|(&i, v)| all[i] = *v);

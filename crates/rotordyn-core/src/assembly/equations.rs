@@ -219,7 +219,7 @@ impl Assembly {
 fn check_mass(assembly: &Assembly) -> Result<(), PhysicsError> {
     let dofs: &DofMap = &assembly.dofs;
     match (0..dofs.len()).find(|&k| assembly.mass.get(k, k) <= 0.0) {
-        Some(k) => Err(PhysicsError::Singular { motion: format!("{} (no inertia)", dofs.name(k)) }),
+        Some(k) => Err(PhysicsError::NoInertia { item: dofs.name(k) }),
         None => Ok(()),
     }
 }

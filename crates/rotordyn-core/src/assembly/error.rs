@@ -10,6 +10,10 @@ pub enum PhysicsError {
     )]
     Singular { motion: String },
     #[error(
+        "{item} has no inertia: a shaft of density 0 has mass at its discs only; state a small density, such as \"1 kg/m^3\", or a mass there"
+    )]
+    NoInertia { item: String },
+    #[error(
         "no static equilibrium at {speed_rpm:.1} rpm: residual {residual:.3e} N at {item} after {iterations} iterations"
     )]
     NoEquilibrium { item: String, speed_rpm: f64, residual: f64, iterations: usize },

@@ -62,12 +62,21 @@ fn zero_frequency_shapes(mass: &SparseMatrix, stiffness: &SparseMatrix) -> Resul
     const STEPS: [usize; 2] = [3, 5];
     /// The first ones are enough if the squares of all frequencies are this much smaller or larger than the limit.
     const CLEAR: f64 = 1e4;
+    /// Multiples of M where K + M is singular to round-off \[rad²/s²\].
+    const SHIFTS: [f64; 3] = [1e3, 1e6, 1e9];
+    /// xᵀ K x over Σ |xᵢ K_ij xⱼ| that is round-off.
+    const ROUND_OFF: f64 = 4e-15;
     let limit = RIGID_BODY_MAX_FREQUENCY * RIGID_BODY_MAX_FREQUENCY;
     let is_clear = |square: &f64| square.abs() < limit / CLEAR || *square > limit * CLEAR;
     let size = mass.rows();
     let layout = BandLayout::new(&[mass, stiffness]);
-    let values = layout.scatter(stiffness).iter().zip(layout.scatter(mass)).map(|(k, m)| k + m).collect();
-    let factors = layout.factor::<f64>(values).map_err(|pivot| format!("K + M is singular: {pivot:?}"))?;
+    let [k, m] = [stiffness, mass].map(|matrix| layout.scatter(matrix));
+    let shifted = |shift: f64| layout.factor::<f64>(k.iter().zip(&m).map(|(k, m)| k + shift * m).collect());
+    // In small machines, whose natural frequencies are high, M may be below the round-off of K.
+    let factors = shifted(1.0).or_else(|pivot| {
+        let larger = SHIFTS.iter().find_map(|shift| shifted(*shift).ok());
+        larger.ok_or_else(|| format!("K + M is singular: {pivot:?}"))
+    })?;
     // Most machines have none, or the rotation about z.
     let mut width = 4.min(size);
     loop {
@@ -90,15 +99,22 @@ fn zero_frequency_shapes(mass: &SparseMatrix, stiffness: &SparseMatrix) -> Resul
         if !squares.iter().all(is_clear) {
             (squares, turns) = iterate(STEPS[1])?;
         }
-        let rigid: Vec<usize> = (0..squares.len()).filter(|&k| squares[k].abs() < limit).collect();
+        let shape = |k: usize| {
+            let mut out = vec![0.0; size];
+            for (i, x) in basis.iter().enumerate() {
+                out.iter_mut().zip(x).for_each(|(out, x)| *out += turns[(i, k)] * x);
+            }
+            out
+        };
+        let is_rigid = |k: &usize| {
+            squares[*k].abs() < limit || {
+                let x = shape(*k);
+                let forces: f64 = stiffness.iter().map(|(i, j, v)| (x[i] * v * x[j]).abs()).sum();
+                squares[*k].abs() < ROUND_OFF * forces
+            }
+        };
+        let rigid: Vec<usize> = (0..squares.len()).filter(is_rigid).collect();
         if rigid.len() < width || width == size {
-            let shape = |k: usize| {
-                let mut out = vec![0.0; size];
-                for (i, x) in basis.iter().enumerate() {
-                    out.iter_mut().zip(x).for_each(|(out, x)| *out += turns[(i, k)] * x);
-                }
-                out
-            };
             return Ok(rigid.into_iter().map(shape).collect());
         }
         width = (2 * width).min(size);

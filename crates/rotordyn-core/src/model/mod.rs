@@ -130,7 +130,7 @@ pub struct Load {
 pub enum LoadFactor {
     /// Always 1, and part of the static load.
     Constant,
-    /// (time \[s\], factor), piecewise linear, zero outside.
+    /// (time \[s\], factor), piecewise linear; the first and the last factor hold before and after. No part of the static load.
     Table(Vec<[f64; 2]>),
     /// Gaussian of RMS 1 in a frequency band.
     Random(BandNoise),
@@ -141,7 +141,7 @@ impl LoadFactor {
     pub fn at(&self, time: f64) -> f64 {
         match self {
             Self::Constant => 1.0,
-            Self::Table(points) => piecewise(points, time, Outside::Zero)[1],
+            Self::Table(points) => piecewise(points, time, Outside::Constant)[1],
             Self::Random(noise) => noise.at(time),
         }
     }

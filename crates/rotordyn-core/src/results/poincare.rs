@@ -46,7 +46,7 @@ pub struct PlaneSection {
 pub struct Whirl {
     /// Area swept forward (from x towards y, with the spin) minus backward, over their sum: 1 is all forward.
     pub forwardness: f64,
-    /// The 1x (synchronous) component, by least squares over the orbit.
+    /// The 1x (synchronous) component, by least squares over the whole record with Hann's weights.
     pub synchronous: FilteredOrbit,
 }
 

@@ -2,6 +2,7 @@
 
 use super::response_grid::{is_rotation, requested_mask, unit_of};
 use super::{BearingForce, UndampedPeak};
+use crate::analysis::critical_speed::UnstableMode;
 use crate::analysis::peaks::Peak;
 use crate::analysis::separation::SeparationMargin;
 use crate::analysis::shaft_loads::ShaftAmplitudes;
@@ -34,6 +35,9 @@ pub struct UnbalanceResult {
     pub shaft: Vec<ShaftAmplitudes>,
     /// Undamped modes excited by the unbalance, at which the response is infinite, by speed \[rad/s\].
     pub undamped: Vec<UndampedPeak>,
+    /// An unstable mode at the lowest speed that is known to have one.
+    #[serde(default)]
+    pub unstable: Option<UnstableMode>,
 }
 
 /// A peak of the unbalance response.

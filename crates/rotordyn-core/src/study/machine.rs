@@ -15,7 +15,7 @@ use crate::analysis::{campbell, critical_speed, modal, stability};
 use crate::assembly::{Assembly, LinearSystem, PhysicsError, rigid_body_modes};
 use crate::model::study::{CampbellStudy, CriticalStudy, EquilibriumStudy, ModalStudy, RunUpStudy};
 use crate::model::{Drive, Model};
-use crate::results::{CampbellResult, CriticalResult, ModalResult, OrderLine};
+use crate::results::{CampbellResult, CriticalResult, ModalResult};
 use crate::transient::reduction::{Reduction, reduce};
 use crate::transient::run::{Report, RunSnapshot, Sample, Settings, resume, run};
 use crate::warning::Warning;
@@ -426,36 +426,6 @@ impl Machine {
             duration: self.model.profile.duration(),
             energy_balance: true,
         }
-    }
-
-    /// Order lines with labels: "2x", or for multiples of a bearing's characteristic orders "BPFO", "2 BPFI".
-    pub fn order_lines(&self, orders: &[f64]) -> Vec<OrderLine> {
-        let mut characteristic_orders: Vec<(String, f64)> = Vec::new();
-        for site in &self.model.bearings {
-            if let Some(c) = site.bearing.characteristic_orders() {
-                let named = [("BPFO", c.bpfo), ("BPFI", c.bpfi), ("BSF", c.bsf), ("FTF", c.ftf)];
-                characteristic_orders.extend(named.iter().map(|(name, order)| ((*name).to_string(), *order)));
-            }
-        }
-        orders
-            .iter()
-            .map(|&order| {
-                let multiple = |base: f64| {
-                    let n = (order / base).round();
-                    (n >= 1.0 && (order / base - n).abs() < 1e-6 * n).then_some(n)
-                };
-                // Integer orders are always shaft orders.
-                let bearing = characteristic_orders.iter().find_map(|(name, base)| {
-                    let n = multiple(*base).filter(|n| *n <= 5.0 && multiple(1.0).is_none())?;
-                    Some(if n == 1.0 { name.clone() } else { format!("{n} {name}") })
-                });
-                OrderLine {
-                    label: bearing.clone().unwrap_or_else(|| format!("{order}x")),
-                    order,
-                    bearing: bearing.is_some(),
-                }
-            })
-            .collect()
     }
 }
 

@@ -42,8 +42,11 @@ impl Machine {
         let highest = f.iter().copied().fold(0.0, f64::max);
         let poles = if highest > 0.0 { frf_poles(&self.assembly, &system, highest)? } else { Vec::new() };
         let least = poles.iter().min_by(|a, b| a.damping_ratio.total_cmp(&b.damping_ratio));
-        let least_damped =
-            least.map(|p| LeastDampedMode { label: p.label.clone(), damping_ratio: p.damping_ratio });
+        let least_damped = least.map(|p| LeastDampedMode {
+            label: p.label.clone(),
+            // A growth within round-off is none.
+            damping_ratio: if p.is_unstable() { p.damping_ratio } else { p.damping_ratio.max(0.0) },
+        });
         let solver = FrfSolver::new(&self.assembly, &system, &excitations, &responses, q);
         let evaluate = |hz: &[f64]| match self.has_whirl_tables() {
             true => self.frf_at_whirl(study.speed, hz, [&excitations, &responses], q),
@@ -136,7 +139,7 @@ impl Machine {
             true => [lowest, highest],
             false => [highest * (1.0 - SINGLE_POINT_RANGE), highest * (1.0 + SINGLE_POINT_RANGE)],
         };
-        let poles = synchronous_poles(&self.assembly, range, &tangents, &self.table_speeds())?;
+        let (poles, unstable) = synchronous_poles(&self.assembly, range, &tangents, &self.table_speeds())?;
         let shaft = ShaftSections::new(&self.model);
         let observe = |motion: UnbalanceMotion| self.observe(motion, &observed, &shaft);
         let path = self.equilibrium_path(&study.speeds, study.speeds.len());
@@ -205,6 +208,7 @@ impl Machine {
             channels,
             orbits,
             undamped,
+            unstable: unstable.into_iter().next(),
         })
     }
 }

@@ -6,6 +6,7 @@ use nalgebra::DVector;
 
 use super::milestone::Milestone;
 use super::settled_run::{Criteria, SettledRun, SettledSnapshot, SettledStart};
+use super::synchronous_orbit::synchronous_orbit;
 use super::{Machine, StudyError};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::element::Anchor;
@@ -21,7 +22,6 @@ use crate::transient::steady::{SteadyRun, SteadySnapshot, SteadyStart, run_stead
 use crate::transient::system::State;
 use rotordyn_signal::lyapunov::lyapunov_exponent;
 use rotordyn_signal::motion_classification::classify_motion;
-use rotordyn_signal::orbit::FilteredOrbit;
 use rotordyn_signal::poincare::{StroboscopicSampling, cluster_points};
 use serde::{Deserialize, Serialize};
 
@@ -98,10 +98,11 @@ impl Machine {
         let planes = study.planes.iter().enumerate().map(|(k, plane)| {
             let orbit = [2 * k, 2 * k + 1].map(|c| run.channels[c][kept.clone()].to_vec());
             let proper = is_orbit(plane);
+            let [x, y] = [&run.channels[2 * k], &run.channels[2 * k + 1]];
             PlaneSection {
                 name: plane.name.clone(),
                 axes: [&plane.x, &plane.y].map(section_channel),
-                whirl: if proper { whirl(&orbit, &shaft_angle) } else { None },
+                whirl: proper.then(|| whirl(&orbit, [x, y], &run.shaft_angle)).flatten(),
                 clearance: clearance(&self.model, plane).filter(|_| proper),
                 orbit,
                 sample_rate: 1.0 / run.step,
@@ -322,9 +323,9 @@ fn is_orbit(plane: &Plane) -> bool {
     x.at == y.at && x.quantity == y.quantity && along(x, 0) && along(y, 1)
 }
 
-/// Whirl direction and 1x component of an orbit; `None` without motion or with less than one turn.
-fn whirl([x, y]: &[Vec<f64>; 2], shaft_angle: &[f64]) -> Option<Whirl> {
-    let once = FilteredOrbit::fit(x, y, shaft_angle, 1.0).ok()?;
+/// Whirl direction of an orbit, and the 1x component of the whole record; `None` without motion or with less than one turn.
+fn whirl([x, y]: &[Vec<f64>; 2], record: [&Vec<f64>; 2], shaft_angle: &[f64]) -> Option<Whirl> {
+    let once = synchronous_orbit(record[0], record[1], shaft_angle)?;
     let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
     let (mx, my) = (mean(x), mean(y));
     let (mut net, mut all) = (0.0, 0.0);

@@ -11,13 +11,15 @@ use std::ops::ControlFlow;
 use serde::{Deserialize, Serialize};
 
 use super::Machine;
+use super::order_tracking::is_selected;
 use super::probe_filter::ProbeFilter;
+use crate::model::Quantity;
 use crate::model::study::{Integrator, RunUpStudy};
 use crate::results::{History, HistoryChannel, StepError, StepErrorLine};
 use crate::series::SeriesError;
 use crate::transient::reduction::Reduction;
 use crate::transient::run::{End, Report, Sample, Settings, run};
-use crate::transient::system::State;
+use crate::transient::system::{State, System};
 
 /// Intervals of a run at whose beginnings the state is kept.
 const INTERVALS: usize = 64;
@@ -59,6 +61,13 @@ impl Checkpoints {
         if sample.index.is_multiple_of(self.every) {
             self.states.push(sample.state.clone());
         }
+    }
+
+    /// Bound of the displacement of a channel in all states, whatever its quantity: |row| |x|.
+    fn largest_displacement(&self, system: &System, channel: usize) -> f64 {
+        let n = system.structure();
+        let largest = self.states.iter().map(|state| state.x.rows(0, n).norm()).fold(0.0, f64::max);
+        system.channels.list()[channel].row.rows(0, n).norm() * largest
     }
 }
 
@@ -155,9 +164,12 @@ impl Machine {
             orders.iter().map(|order| window.line_levels(records, *order)).collect()
         };
         let (own_levels, other_levels) = (levels(&own_angle, &records), levels(&angle, &values));
+        let mean_speed = turned.abs() / (time_end - time_first);
+        let shown = self.shown_channels(channels);
         let mut lines = Vec::new();
-        for (k, (channel, record)) in channels.iter().zip(&records).enumerate() {
+        for (k, (channel, record)) in channels.iter().zip(&records).enumerate().filter(|(k, _)| shown[*k]) {
             let vibration = variance(record).sqrt();
+            let displacement = checkpoints.largest_displacement(&reduction.system, k);
             if vibration <= ROUND_OFF * largest_with(&channel.unit) {
                 continue;
             }
@@ -166,7 +178,9 @@ impl Machine {
             let named = self.order_lines(&orders).into_iter();
             for (line, (own, other)) in named.zip(own_levels.iter().zip(&other_levels)) {
                 let (level, other_level) = (own[k], other[k]);
-                if level > least {
+                let rate =
+                    (line.order * mean_speed).powi(derivatives(reduction.system.channels.list()[k].quantity));
+                if level > least.max(ROUND_OFF * displacement * rate) {
                     let error = (other_level - level) / level * factor;
                     let channel = channel.name.clone();
                     lines.push(StepErrorLine { channel, line, level, other_level, error });
@@ -181,6 +195,13 @@ impl Machine {
             steps: rerun.steps,
             cost: rerun.steps as f64 / report.steps.max(1) as f64,
         }))
+    }
+
+    /// Which channels are checked: those of the order cuts, if there are probes among them.
+    fn shown_channels(&self, channels: &[HistoryChannel]) -> Vec<bool> {
+        let names = self.model.studies.orders.as_ref().map_or(&[][..], |study| &study.channels);
+        let shown: Vec<bool> = channels.iter().map(|channel| is_selected(channel, names)).collect();
+        if shown.contains(&true) { shown } else { vec![true; channels.len()] }
     }
 
     /// Orders whose levels are checked: those of the order cuts, or 1x, 2x and the outer race of every bearing.
@@ -224,6 +245,15 @@ fn largest_response(
         }
     }
     Ok((0..intervals).filter(moves).max_by(|a, b| sums[*a].total_cmp(&sums[*b])))
+}
+
+/// Number of time derivatives from the displacement.
+fn derivatives(quantity: Quantity) -> i32 {
+    match quantity {
+        Quantity::Displacement => 0,
+        Quantity::Velocity => 1,
+        Quantity::Acceleration => 2,
+    }
 }
 
 fn variance(values: &[f64]) -> f64 {

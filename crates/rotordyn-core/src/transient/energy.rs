@@ -24,13 +24,13 @@ pub struct Energy {
     pub strain: f64,
     /// Elastic energy in the bearings.
     pub contact: f64,
-    /// Work of loads since the start, and with a prescribed speed of unbalance, angular acceleration and circulatory
-    /// terms.
+    /// Work of loads and of unsymmetric bushings since the start, and with a prescribed speed of unbalance, angular
+    /// acceleration and circulatory terms.
     pub work: f64,
     /// Work of a torque drive since the start.
     pub drive: f64,
-    /// Work on the bearings by cage rotation, raceway waviness and speed change (parametric excitation) since
-    /// the start; on free bodies by the shaft's prescribed rotation and by gravity.
+    /// Work on the bearings by cage rotation, raceway waviness and speed change (parametric excitation), and by
+    /// cross-coupled stiffness, since the start; on free bodies by the shaft's prescribed rotation and by gravity.
     pub parametric: f64,
     /// Energy dissipated by linear damping since the start.
     pub damping_loss: f64,
@@ -150,6 +150,7 @@ impl EnergyBalance {
             self.energy.damping_loss += done.loss;
         }
         self.energy.work += self.work_of_loads(system, state) + self.work_of_rotation(system, state);
+        self.energy.work += self.work_of_cross_coupling(system, state);
         // C (v₀ + v₁)/2 along the path.
         let n = system.structure();
         let damping = &mut self.linear.as_mut_slice()[..n];
@@ -256,6 +257,14 @@ impl EnergyBalance {
         load.fill(0.0);
         panels.effective.mul_add(&self.scratch, load);
         dot_in_sixteens(load, &self.moved.as_slice()[..n])
+    }
+
+    /// Work of the mean of −½ (K − Kᵀ) x, which is not stored.
+    fn work_of_cross_coupling(&self, system: &System, state: &State) -> f64 {
+        let Some(matrix) = &system.cross_coupling else { return 0.0 };
+        let n = system.structure();
+        let mean = 0.5 * (self.x.rows(0, n) + state.x.rows(0, n));
+        -self.moved.rows(0, n).dot(&(matrix * mean))
     }
 
     /// Continues from a state whose coordinates were changed between steps (recentring of a torque drive).

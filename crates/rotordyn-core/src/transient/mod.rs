@@ -9,6 +9,7 @@ mod free_bodies;
 pub mod generalised_alpha;
 pub mod inertias;
 pub mod interface;
+mod load_corners;
 mod loads;
 mod numbers;
 mod panels;

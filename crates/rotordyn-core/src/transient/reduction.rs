@@ -17,8 +17,11 @@ use crate::assembly::dense_limit::check_dense;
 use crate::assembly::{Assembly, ModalDamping, PhysicsError};
 use crate::model::{Drive, LoadFactor, Model, Probe};
 use rotordyn_bearing::Rotation;
-use rotordyn_linalg::{SparseMatrix, SparseRow, Triplets, eigen};
+use rotordyn_linalg::eigen::{self, EigenError};
+use rotordyn_linalg::{SparseMatrix, SparseRow, Triplets};
 
+/// |K_ij − K_ji|/2 over √(K_ii K_jj) that is more than round-off.
+const ASYMMETRIC: f64 = 1e-10;
 /// Shifts σ of K + σ M where K is not positive definite \[rad²/s²\]: 1 for a rigid-body mode, more for a
 /// shaft in unstable equilibrium on one ball.
 const MASS_SHIFTS: [f64; 4] = [1.0, 1e2, 1e4, 1e6];
@@ -91,12 +94,26 @@ pub fn reduce(
     ]);
     check_size(assembly)?;
     let mass = assembly.mass.to_dense();
-    let stiffness = tangent_stiffness.to_dense();
+    // Cross-coupling of bushings belongs to no undamped mode.
+    let cross_coupling = assembly.stiffness.skew_part();
+    let size = |i: usize| assembly.stiffness.get(i, i).abs().sqrt();
+    let has_cross_coupling = cross_coupling.iter().any(|(i, j, v)| v.abs() > ASYMMETRIC * size(i) * size(j));
+    let stiffness = match has_cross_coupling {
+        true => SparseMatrix::sum(&[(1.0, &tangent_stiffness), (-1.0, &cross_coupling)]).to_dense(),
+        false => tangent_stiffness.to_dense(),
+    };
     let modes_at = |shift: &f64| eigen::undamped(&stiffness, &mass, *shift);
     let (squares, shapes) = MASS_SHIFTS[1..]
         .iter()
         .fold(modes_at(&MASS_SHIFTS[0]), |found, shift| found.or_else(|_| modes_at(shift)))
-        .map_err(|e| failed(e.to_string()))?;
+        .map_err(|e| match e {
+            EigenError::NotDefinite => failed(
+                "the stiffness at the static equilibrium is not positive definite: a support of negative stiffness, or \
+                 an axial force beyond the buckling load"
+                    .into(),
+            ),
+            other => failed(other.to_string()),
+        })?;
     let limit = (std::f64::consts::TAU * cutoff).powi(2);
     let modes = squares.iter().filter(|&&s| s <= limit).count().max(1).min(n);
 
@@ -278,6 +295,7 @@ pub fn reduce(
         gyroscopic: matrices[2].clone(),
         spin_up: matrices[3].clone(),
         circulatory: matrices[4].clone(),
+        cross_coupling: has_cross_coupling.then(|| project(&cross_coupling)),
         static_load: vector(&static_load),
         unbalance,
         spin_inertia: vector(&assembly.spin_momentum) * if driven { -1.0 } else { 0.0 },

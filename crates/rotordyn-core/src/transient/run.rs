@@ -302,6 +302,8 @@ impl Run {
     ) -> Report {
         let mut interval = IntervalChannels::default();
         let (mut seen, mut end) = (from, End::Complete);
+        // Of the last sample: of a step that fails some energies are added up and others are not.
+        let mut energy = self.balance.energy;
         for index in from..=grid.samples {
             interval.clear();
             if index == 0 {
@@ -313,6 +315,7 @@ impl Run {
             if self.follows_energy {
                 self.balance.update_stored_energy(system, &self.state);
             }
+            energy = self.balance.energy;
             seen = index + 1;
             let Self { start, state, stepper, defects, balance, means, .. } = &self;
             let run = RunParts { start: *start, last: grid.samples, stepper, defects, balance, means };
@@ -344,7 +347,7 @@ impl Run {
             iterations,
             refactored,
             halvings: self.stepper.halvings,
-            energy: self.balance.energy,
+            energy,
             end,
         }
     }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::generalised_alpha::{GeneralisedAlpha, Scheme, StepMemory};
+use super::load_corners::LoadCorners;
 use super::runge_kutta::RungeKutta;
 use super::system::{State, System};
 use crate::assembly::PhysicsError;
@@ -27,6 +28,7 @@ pub struct Stepper {
     structure_step: Option<f64>,
     /// Shortest step taken with free bodies \[s\].
     shortest: f64,
+    corners: LoadCorners,
 }
 
 #[allow(clippy::large_enum_variant)] // there is one
@@ -96,7 +98,8 @@ impl Stepper {
                 step,
             },
         };
-        Self { method, steps: 0, halvings: 0, structure_step: None, shortest: f64::INFINITY }
+        let corners = LoadCorners::new(system);
+        Self { method, steps: 0, halvings: 0, structure_step: None, shortest: f64::INFINITY, corners }
     }
 
     /// Ends Newton's iterations of an implicit method where they leave a thousandth of the first correction of a step, far less than
@@ -179,6 +182,25 @@ impl Stepper {
     /// # Errors
     /// A step that fails at the smallest length, or an error of `taken`.
     pub fn advance(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        mut step: f64,
+        end: f64,
+        taken: OnStep,
+    ) -> Result<(), PhysicsError> {
+        let all = self.is_adaptive();
+        if self.corners.divide(system, state.time, end, all) {
+            while let Some(corner) = self.corners.next(system, state.time, end) {
+                self.smooth_step(system, state, corner - state.time, corner, taken)?;
+            }
+            step = end - state.time;
+        }
+        self.smooth_step(system, state, step, end, taken)
+    }
+
+    /// [`Self::advance`] where no load has a corner within the step that matters.
+    fn smooth_step(
         &mut self,
         system: &System,
         state: &mut State,

@@ -38,6 +38,8 @@ pub struct System {
     pub gyroscopic: DMatrix<f64>,
     pub spin_up: DMatrix<f64>,
     pub circulatory: DMatrix<f64>,
+    /// Skew-symmetric part of the stiffness (unsymmetric bushings), `None` without any.
+    pub cross_coupling: Option<DMatrix<f64>>,
     /// Static load: gravity, belt pulls, constant loads.
     pub static_load: DVector<f64>,
     /// Unbalance along cos θ and sin θ, per Ω².

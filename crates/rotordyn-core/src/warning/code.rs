@@ -154,6 +154,11 @@ codes! {
         "A mode has negative damping at a speed of the study: the machine vibrates by itself, and a steady response does \
          not exist.",
         "find the cause (internal damping, cross-coupled stiffness), or stay below the threshold of stability";
+    StaticInstability, "static-instability", Serious,
+        "A motion of the machine grows without oscillation: its stiffness is negative, by a coefficient of a support or an \
+         axial force beyond the buckling load. The equilibrium is not one that the machine stays in, the motion is not among \
+         the modes, and steady responses do not exist.",
+        "check signs and units of stiffness coefficients and of the axial force";
     UndampedPeak, "undamped-peak", Caution,
         "A mode in the range of the response has no damping: the response is infinite there.",
         "state damping: [damping] modal, or damping of supports";

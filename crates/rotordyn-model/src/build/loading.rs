@@ -53,9 +53,11 @@ keys! {
             .required("or moment").example("\"0, -100, 0 N\"");
         moment: Quantities = quantities(any(MOMENT), "three: about x, y, z", "Moment, constant, times factor or random.")
             .required("or force").example("\"0, 0, 12 N m\"");
-        time: Quantities = quantities(any(TIME), "one or more, increasing", "Times of a load history.")
+        time: Quantities = quantities(any(TIME), "one or more, increasing",
+            "Times of a load history, with straight lines between them; it is no part of the statics, a run starts without it.")
             .required("with factor").with("factor = [0, 1]").example("\"0, 0.1 s\"");
-        factor: Quantities = quantities(any(NUMBER), "as many as time", "Factor of the load at these times.")
+        factor: Quantities = quantities(any(NUMBER), "as many as time",
+            "Factor of the load at these times; the first one holds from the start of the run on, the last one to its end: 0 for a load that sets in later, or ends.")
             .required("with time").with("time = \"0, 0.1 s\"").example("[0, 1]");
         band: Quantities = quantities(not_negative(FREQUENCY), "two, increasing", "Frequencies between which the spectrum of a random load is flat; force and moment are its RMS values.")
             .optional().example("\"5, 500 Hz\"");
@@ -163,7 +165,7 @@ keys! {
     /// Of speeds over time.
     static TABULATED: TabulatedKeys {
         time: Quantities = quantities(not_negative(TIME), "two or more, increasing", "Times.").example("\"0, 10 s\"");
-        speed: Quantities = quantities(not_negative(SPEED), "as many as time", "Speeds at these times.")
+        speed: Quantities = quantities(not_negative(SPEED), "as many as time", "Speeds at these times; between them a smooth curve (monotone cubic, PCHIP) without overshoot, not straight lines.")
             .example("\"0, 1200 rpm\"");
     }
 }

@@ -170,7 +170,7 @@ pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Mo
         let sites = top.items(&bearing::TOP.bearing);
         mounting::check_axial_location(&sites, &model, log);
         mounting::check_free_rotation(&top, &model);
-        plausibility::check(&top, &model, (&TOP.material, &MATERIAL.young));
+        plausibility::check(&top, &model, (&TOP.material, [&MATERIAL.young, &MATERIAL.density]));
         let bearings = model.bearings.iter().map(|s| (&*s.name, &s.bearing));
         mounting::check_mounted_preloads(&sites, bearings, true, log);
     }

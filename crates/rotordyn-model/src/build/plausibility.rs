@@ -39,8 +39,8 @@ const BALANCE_QUALITY: f64 = 0.1;
 
 /// Warns of implausible input.
 ///
-/// `materials`: the table of materials and its key of Young's modulus.
-pub(super) fn check(top: &Reader, model: &Model, materials: (&Key<NamedTables>, &Key<Quantity>)) {
+/// `materials`: the table of materials and its keys of Young's modulus and density.
+pub(super) fn check(top: &Reader, model: &Model, materials: (&Key<NamedTables>, [&Key<Quantity>; 2])) {
     check_materials(top, model, materials);
     sections(top, model);
     seats(top, model);
@@ -55,14 +55,20 @@ fn item_span(top: &Reader, collection: &Key<NamedTables>, name: &str) -> Range<u
 }
 
 /// E, ρ and √(E/ρ) of every material with mass.
-fn check_materials(top: &Reader, model: &Model, (table, young): (&Key<NamedTables>, &Key<Quantity>)) {
+fn check_materials(
+    top: &Reader,
+    model: &Model,
+    (table, [young, density]): (&Key<NamedTables>, [&Key<Quantity>; 2]),
+) {
     let items = top.items(table);
     for material in &model.materials {
         let Some((_, r)) = items.iter().find(|(name, _)| *name == material.name) else { continue };
         let Some((what, expected)) = implausible_material(material) else { continue };
         let message = format!("material.{}: {what}", material.name);
-        let problem = Problem::new(Kind::OutOfRange, &r.span_of(young), message).expected(expected);
-        let hint = "check the units of young and density; a massless shaft has density = \"0 kg/m^3\"";
+        let key = if message.contains(": a density") { density } else { young };
+        let problem = Problem::new(Kind::OutOfRange, &r.span_of(key), message).expected(expected);
+        let hint = "check the units of young and density; for a shaft of hardly any mass the answers are right, and this warning \
+                    stays";
         top.log.warn(Code::MaterialRange, format!("material.{}", material.name), problem.hint(hint));
     }
 }

@@ -343,7 +343,9 @@ fn mesh(
 ) -> MeshedShaft {
     let mut line = MeshedShaft::default();
     let total = sections[sections.len() - 1].z[1] - sections[0].z[0];
-    let elements_of = |s: &Section| ((s.z[1] - s.z[0]) / s.properties.element_length).ceil();
+    // Nothing in a gap would hold nodes between its ends.
+    let longest = |s: &Section| if s.gap { f64::INFINITY } else { s.properties.element_length };
+    let elements_of = |s: &Section| ((s.z[1] - s.z[0]) / longest(s)).ceil().max(1.0);
     let elements: f64 = sections.iter().map(elements_of).sum();
     let most = sections.iter().max_by(|a, b| elements_of(a).total_cmp(&elements_of(b)));
     if let Some(most) = most.filter(|_| elements > MAX_ELEMENTS) {
@@ -384,7 +386,7 @@ fn mesh(
                 let problem = Problem::new(Kind::Geometry, &span, message);
                 top.log.error(problem.hint("put it at the section's end, or set shaft.minimum_spacing"));
             }
-            let count = ((to - from) / section.properties.element_length - 1e-9).ceil().max(1.0) as usize;
+            let count = ((to - from) / longest(section) - 1e-9).ceil().max(1.0) as usize;
             for k in 1..=count {
                 let left = line.node_z[line.node_z.len() - 1];
                 let right = if k == count { to } else { from + (to - from) * (k as f64 / count as f64) };

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, SQRT_2, TAU};
 use rotordyn_signal::WindowKind;
 use rotordyn_signal::envelope::{envelope, envelope_spectrum};
 use rotordyn_signal::orbit::{FilteredOrbit, full_spectrum};
-use rotordyn_signal::ridge::{find_peaks, interpolate_peak, trace_line};
+use rotordyn_signal::ridge::{find_hann_lines, find_peaks, interpolate_peak, trace_line};
 use rotordyn_signal::spectrum::{Level, Welch, amplitude_spectrum, decibel, power_spectral_density};
 use rotordyn_signal::statistics::statistics;
 use rotordyn_signal::stft::{Stft, StftSettings};
@@ -130,6 +130,21 @@ fn peak_between_bins() {
     assert_close("amplitude", peak.amplitude, 3.0, 1e-12);
     let found = find_peaks(&axis, &lobe, 1.0).unwrap();
     assert_eq!(found, vec![peak]);
+}
+
+/// Frequency and amplitude of a sine at any place between the bins, from a Hann-windowed spectrum.
+#[test]
+fn lines_of_a_hann_window_are_exact() {
+    for step in 0..=20 {
+        let frequency = 50.0 + 0.05 * f64::from(step);
+        let x = sampled(10_000, 1000.0, |t| 3.0 * (TAU * frequency * t + 0.4).sin());
+        let spectrum = amplitude_spectrum(&x, 1000.0, WindowKind::Hann, Level::Peak).unwrap();
+        let lines = find_hann_lines(&spectrum.frequencies, &spectrum.values, 1.0).unwrap();
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        // The mirrored line, a thousand bins away, has 1e-9 of it.
+        assert_close("frequency", lines[0].position, frequency, 1e-6);
+        assert_close("amplitude", lines[0].amplitude, 3.0, 1e-5);
+    }
 }
 
 /// The flank of a peak outside the search band is not taken for a ridge.

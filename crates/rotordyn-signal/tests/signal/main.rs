@@ -14,6 +14,7 @@ mod orders;
 mod refusals;
 mod resampling;
 mod sections;
+mod smear;
 mod speed_line;
 mod tacho;
 mod tacho_jitter;

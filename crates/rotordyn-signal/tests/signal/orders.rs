@@ -5,6 +5,7 @@ use std::f64::consts::{SQRT_2, TAU};
 use rotordyn_signal::SignalError;
 use rotordyn_signal::order::{OrderSettings, OrderTracker};
 use rotordyn_signal::ridge::find_peaks;
+use rotordyn_signal::window::WindowKind;
 
 use crate::{assert_close, sampled};
 
@@ -94,6 +95,52 @@ fn order_cuts_follow_the_amplitude() {
     let steady = cut.rms.len() - 1;
     assert_close("steady rms", cut.rms[steady], 2.0 / SQRT_2, 1e-4);
     assert_close("mean", map.cut(0.0, 0.2).unwrap().rms[steady], 5.0, 1e-3);
+}
+
+/// A pure line has its level in the cut of its order for every window, resolution and place between the bins.
+#[test]
+fn cuts_have_the_level_of_a_line_between_bins() {
+    use WindowKind::*;
+    let theta = sampled(30_000, RATE, |t| TAU * 25.0 * t);
+    for window in [Rectangular, Hann, Hamming, Blackman, FlatTop] {
+        for (resolution, order) in [0.05, 0.02]
+            .into_iter()
+            .flat_map(|r| [4.0, 4.009, 4.0125, 4.02, 4.024, 4.026, 4.03].map(|o| (r, o)))
+        {
+            let x: Vec<f64> = theta.iter().map(|a| SQRT_2 * (order * a + 0.4).cos()).collect();
+            let settings = OrderSettings { window, ..OrderSettings::new(resolution, 6.0) };
+            let mut tracker = OrderTracker::new(&theta, RATE, settings).unwrap();
+            let angle = tracker.resample(&[&x]).unwrap();
+            let map = tracker.spectrogram(&angle[0]);
+            for half_band in [resolution, 3.0 * resolution] {
+                for (k, rms) in map.cut(order, half_band).unwrap().rms.iter().enumerate() {
+                    // The mirrored line, with side lobes of the rectangular window. The first and last windows have the ends
+                    // of the interpolation.
+                    let tolerance = if window == Rectangular { 5e-3 } else { 1e-3 };
+                    assert_close(&format!("{window:?} {resolution} {order} {k}"), *rms, 1.0, tolerance);
+                }
+            }
+        }
+    }
+}
+
+/// A line that slips by half a bin within the band of a Hann cut keeps its level to 1 %.
+#[test]
+fn a_line_beside_its_order_keeps_its_level() {
+    let theta = sampled(30_000, RATE, |t| TAU * 25.0 * t);
+    for order in [4.0, 4.0124, 4.0249] {
+        for slip in [-0.025, -0.012, 0.012, 0.025] {
+            let x: Vec<f64> = theta.iter().map(|a| SQRT_2 * ((order + slip) * a).cos()).collect();
+            let mut tracker = OrderTracker::new(&theta, RATE, OrderSettings::new(0.05, 6.0)).unwrap();
+            let angle = tracker.resample(&[&x]).unwrap();
+            let cut = tracker.spectrogram(&angle[0]).cut(order, 0.05).unwrap();
+            // At the edge of the band, one bin from the middle one, a quarter of the power is out of it.
+            let low = if (order + slip - 4.0).abs() > 0.026 { 0.09 } else { 0.011 };
+            for rms in &cut.rms {
+                assert!((1.0 - low..1.011).contains(rms), "{order} {slip}: {rms}");
+            }
+        }
+    }
 }
 
 /// Resolution, overlap and highest order are kept for values that are not round, too.

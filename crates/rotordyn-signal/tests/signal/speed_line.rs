@@ -90,6 +90,41 @@ fn ridge_by_dynamic_programming() {
     }
 }
 
+/// The height over the background tells a line from noise, and a jump tells a path over two orders.
+#[test]
+fn noise_and_two_orders_are_told_from_a_line() {
+    let found = speed_from_line(&record(), RATE, &LINE).unwrap();
+    assert!(found.over_background > 6.0 && found.jump < 1.2, "{} {}", found.over_background, found.jump);
+    for seed in 1..=10 {
+        for (low, high) in [(15.0, 60.0), (30.0, 150.0), (25.0, 35.0)] {
+            let settings = SpeedLineSettings {
+                order: 1.0,
+                low,
+                high,
+                max_sweep_rate: high - low,
+                frame: (24.0 * RATE / f64::sqrt(low * high)) as usize,
+            };
+            let found = speed_from_line(&noise(seed, 40_000), RATE, &settings).unwrap();
+            assert!(found.over_background < 4.0, "{seed} {low}: {}", found.over_background);
+        }
+    }
+    // 1x enters a range for 2x, and is stronger.
+    let rough = noise(3, 40_000);
+    let two = |first: f64, second: f64| -> Vec<f64> {
+        let x = sampled(40_000, RATE, |t| {
+            let a = TAU * (20.0 * t + 1.5 * t * t);
+            first * a.cos() + second * (2.0 * a + 1.0).cos()
+        });
+        x.iter().zip(&rough).map(|(x, r)| x + 0.3 * r).collect()
+    };
+    let settings =
+        SpeedLineSettings { order: 2.0, low: 30.0, high: 110.0, max_sweep_rate: 64.0, frame: 1671 };
+    let wrong = speed_from_line(&two(2.0, 0.7), RATE, &settings).unwrap();
+    assert!(wrong.jump > 1.5, "{}", wrong.jump);
+    let right = speed_from_line(&two(0.7, 2.0), RATE, &settings).unwrap();
+    assert!(right.jump < 1.2 && right.over_background > 10.0, "{} {}", right.jump, right.over_background);
+}
+
 #[test]
 fn invalid_input_is_rejected() {
     let x = record();

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use rotordyn_signal::order::{OrderSettings, OrderTracker};
+use rotordyn_signal::tacho::alias::aliased_speed;
 use rotordyn_signal::tacho::{PulseTrain, rising_edges};
 
 use crate::{assert_close, noise, sampled};
@@ -158,4 +159,79 @@ fn bad_input() {
     let train = PulseTrain::new(&[0.0, 0.1, 0.2, 0.3, 0.4], 1).unwrap();
     assert!(train.smoothed(3).is_err());
     assert!(train.angle(1.0, 10).is_err());
+}
+
+/// A trapezoidal pulse of 1 V, a twentieth of a turn wide, over turns.
+fn pulse(turns: f64) -> f64 {
+    let place = (turns + 0.3).rem_euclid(1.0);
+    (place.min(0.05 - place) / 0.01).clamp(0.0, 1.0)
+}
+
+/// Pulses on a drift of up to 1.5 times their height: all of them, none added, times within two samples.
+#[test]
+fn pulses_on_a_slow_drift() {
+    let rate = 5000.0;
+    let turns = |t: f64| 20.0 * t + 0.5 * t * t;
+    for drift in [0.3, 0.6, 1.0, 1.5] {
+        let x = sampled(100_000, rate, |t| pulse(turns(t)) + drift * (TAU * t / 20.0).sin());
+        let edges = rising_edges(&x, rate, None, 0.2).unwrap();
+        let steady = rising_edges(&sampled(100_000, rate, |t| pulse(turns(t))), rate, None, 0.2).unwrap();
+        assert_eq!(edges.len(), steady.len(), "{drift}");
+        for (a, b) in edges.iter().zip(&steady) {
+            assert_close("edge", *a, *b, 2.0 / rate);
+        }
+        let train = PulseTrain::new(&edges, 1).unwrap();
+        assert_eq!((train.missing, train.dropped, train.implausible(edges.len())), (0, 0, None));
+    }
+}
+
+/// Noise has no train of pulses; a start from rest and a wheel with a missing tooth have.
+#[test]
+fn trains_that_no_shaft_has() {
+    for seed in 1..=5 {
+        let rough = noise(seed, 20_000);
+        let edges = rising_edges(&rough, 2000.0, None, 0.2).unwrap();
+        let found = PulseTrain::new(&edges, 1).unwrap().implausible(edges.len());
+        assert!(found.is_some_and(|text| text.contains("no train of pulses")));
+    }
+    let start = pulses();
+    assert_eq!(PulseTrain::new(&start, 1).unwrap().implausible(start.len()), None);
+    let rough = noise(9, 400);
+    for spread in [0.0, 0.2] {
+        let uneven: Vec<f64> =
+            (0..400u16).map(|k| (f64::from(k) + spread * rough[usize::from(k)]) / 600.0).collect();
+        assert_eq!(PulseTrain::new(&uneven, 20).unwrap().implausible(uneven.len()), None);
+    }
+    let wheel: Vec<f64> = (0..400).filter(|k| k % 20 != 0).map(|k| f64::from(k) / 600.0).collect();
+    assert_eq!(PulseTrain::new(&wheel, 20).unwrap().implausible(wheel.len()), None);
+}
+
+/// 60 pulses a turn at 30 rev/s sampled at 2 kHz look like 200 Hz; 1x of the record tells. At 20 kHz they are right.
+#[test]
+fn aliased_pulses_are_told_by_the_record() {
+    let turns = |t: f64| 30.0 * t + 0.05 * t * t;
+    let found = |pulse_rate: f64, line: f64| {
+        let samples = (10.0 * pulse_rate) as usize;
+        let channel =
+            sampled(samples, pulse_rate, |t| if (TAU * 60.0 * turns(t)).sin() > 0.0 { 5.0 } else { 0.0 });
+        let edges = rising_edges(&channel, pulse_rate, None, 0.2).unwrap();
+        let train = PulseTrain::new(&edges, 60).unwrap();
+        let rough = noise(5, 20_000);
+        let record: Vec<f64> = rough
+            .iter()
+            .enumerate()
+            .map(|(n, x)| (TAU * line * turns(n as f64 / 2000.0)).sin() + 0.3 * x)
+            .collect();
+        aliased_speed(&record, 2000.0, [&train.times, &train.revolutions], pulse_rate, 60)
+    };
+    for line in [1.0, 2.0] {
+        let speed = found(2000.0, line).unwrap();
+        assert_close("speed", speed, 30.5, 0.1);
+        assert_eq!(found(20_000.0, line), None);
+    }
+    // No line of a shaft: nothing is known.
+    assert_eq!(found(2000.0, 4.37), None);
+    let train = |rate: f64| PulseTrain::new(&(0..500).map(|k| f64::from(k) / rate).collect::<Vec<_>>(), 1);
+    assert!(train(900.0).unwrap().unresolved(2000.0).is_some_and(|samples| (samples - 2.22).abs() < 0.01));
+    assert_eq!(train(400.0).unwrap().unresolved(2000.0), None);
 }

@@ -63,6 +63,20 @@ pub struct CrossingList {
     pub omitted: Vec<(f64, usize)>,
     /// Ranges of speeds in which the list may be incomplete: the modes change within steps of the search.
     pub uncertain: Vec<UncertainRange>,
+    /// The least stable mode at every speed of the search at which one is unstable, by speed.
+    #[serde(default)]
+    pub unstable: Vec<UnstableMode>,
+}
+
+/// A mode that grows at a speed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct UnstableMode {
+    /// Ω \[rad/s\].
+    pub speed: f64,
+    /// Empty where it is not known.
+    pub label: String,
+    /// ζ < 0.
+    pub damping_ratio: f64,
 }
 
 impl UncertainRange {

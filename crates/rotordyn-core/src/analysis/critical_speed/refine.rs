@@ -19,7 +19,7 @@ const KNOWN_SHIFT: f64 = 1e-9;
 const MAX_SECANT_STEPS: usize = 20;
 
 /// The eigenpair of P(λ) φ = (λ² M + λ D + S) φ = 0 next to an approximate one; `None` without convergence.
-pub(super) fn nearest_eigenpair(system: &LinearSystem, start: &Eigenpair) -> Option<Eigenpair> {
+pub(in crate::analysis) fn nearest_eigenpair(system: &LinearSystem, start: &Eigenpair) -> Option<Eigenpair> {
     let (value, mut shape) = start.clone();
     let largest = (0..shape.len()).max_by(|&i, &j| shape[i].norm_sqr().total_cmp(&shape[j].norm_sqr()))?;
     // The mode lies in one group of coupled unknowns.

@@ -199,6 +199,7 @@ impl<'a, T: Tangents> Search<'a, T> {
             true => spectra,
             false => self.halve_steps(spectra, orders, &mut out.uncertain)?,
         };
+        out.unstable = spectra.iter().filter_map(|at| at.unstable.clone()).collect();
         let steps: Vec<(&[Spectrum], f64)> =
             orders.iter().flat_map(|&order| spectra.windows(2).map(move |step| (step, order))).collect();
         let found: Vec<Found> = steps

@@ -1,5 +1,7 @@
 //! The modes at one speed that take part in a search for crossings.
 
+use super::UnstableMode;
+use crate::analysis::stability::is_unstable;
 use rotordyn_linalg::Complex64;
 
 /// Modes with |λ| up to this multiple of a damped frequency are those with damping ratios up to 0.94 below it; others do not take
@@ -29,6 +31,8 @@ pub struct Spectrum {
     pub speed: f64,
     pub values: Vec<Complex64>,
     pub labels: Vec<String>,
+    /// The least stable mode, if it is unstable, whether it takes part or not.
+    pub unstable: Option<UnstableMode>,
     /// Whether the damping of a mode is near the limit from which on it does not take part: it may do so at the next speed.
     has_mode_at_limit: bool,
 }
@@ -41,10 +45,18 @@ impl Spectrum {
             LIMIT_RANGE[0] < ratio && ratio < LIMIT_RANGE[1]
         };
         let has_mode_at_limit = modes.iter().any(|(value, _)| is_at_limit(value));
+        let zeta = |value: &Complex64| -value.re / value.norm();
+        let growing = modes.iter().filter(|(value, _)| is_unstable(*value));
+        let least = growing.min_by(|a, b| zeta(&a.0).total_cmp(&zeta(&b.0)));
+        let unstable = least.map(|(value, label)| UnstableMode {
+            speed,
+            label: label.clone(),
+            damping_ratio: zeta(value),
+        });
         modes.retain(|(value, _)| takes_part(*value));
         modes.sort_by(|a, b| a.0.im.total_cmp(&b.0.im));
         let (values, labels) = modes.into_iter().unzip();
-        Self { speed, values, labels, has_mode_at_limit }
+        Self { speed, values, labels, unstable, has_mode_at_limit }
     }
 
     /// Whether a mode lies below an order line here and above it at another speed, or the other way round, while modes may come to

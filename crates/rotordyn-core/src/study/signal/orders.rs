@@ -4,12 +4,17 @@ use super::{DEFAULT_MAX_ORDER, Job, MIN_SPEED, characteristic_rates};
 use crate::results::{OrderLine, ShaftAverage, ShaftOrders};
 use rotordyn_signal::SignalError;
 use rotordyn_signal::bearing_lines::BearingPart;
-use rotordyn_signal::order::{OrderSettings, OrderTracker};
+use rotordyn_signal::order::{OrderCut, OrderSettings, OrderTracker};
 use rotordyn_signal::order_tracks::order_tracks;
 use rotordyn_signal::resample::{AngleResampler, SAMPLES_PER_ORDER};
 use rotordyn_signal::statistics::statistics;
 use rotordyn_signal::synchronous::synchronous_average;
+use rotordyn_signal::tacho_jitter::{JitterLeak, amplitude_kept};
 
+/// Share of the sampling rate that the highest order uses.
+const RATE_SHARE: f64 = 0.9;
+/// Loss of an order by the jitter of the shaft angle at which it is named.
+const JITTER_LOSS: f64 = 0.1;
 /// Share of an order's amplitude above which the leak of another one matters: 1 dB.
 const LEAK_SHARE: f64 = 0.12;
 
@@ -20,7 +25,9 @@ impl Job<'_> {
         let asked = self.settings.orders.iter().map(|line| 1.1 * line.order).fold(0.0, f64::max);
         let wanted = DEFAULT_MAX_ORDER.max(of_bearing).max(asked);
         let fastest = self.shaft.map_or(0.0, |s| s.summary.max);
-        self.settings.max_order.unwrap_or_else(|| wanted.min(0.9 * self.rate / (SAMPLES_PER_ORDER * fastest)))
+        self.settings
+            .max_order
+            .unwrap_or_else(|| wanted.min(RATE_SHARE * self.rate / (SAMPLES_PER_ORDER * fastest)))
     }
 
     pub(super) fn orders(&self) -> Result<ShaftOrders, SignalError> {
@@ -38,9 +45,20 @@ impl Job<'_> {
         let average = map.average(0.0, f64::INFINITY)?;
         let highest = map.orders.last().copied().unwrap_or(0.0);
         let asked = &self.settings.orders;
-        if let Some(above) = asked.iter().find(|line| line.order >= highest) {
-            let expected = "below the highest order of the map, which the sampling rate may limit";
-            return Err(SignalError::OutOfRange { name: "order", expected, given: above.order });
+        let largest = asked.iter().max_by(|a, b| a.order.total_cmp(&b.order));
+        if let Some(above) = largest.filter(|line| line.order >= highest) {
+            return Err(match (self.settings.max_order, self.shaft) {
+                (None, Some(shaft)) => SignalError::RateTooLow {
+                    given: self.rate,
+                    needed: SAMPLES_PER_ORDER * above.order * shaft.summary.max / RATE_SHARE,
+                    purpose: "the highest order asked for at the highest speed",
+                },
+                _ => SignalError::OutOfRange {
+                    name: "highest order",
+                    expected: "above every order asked for",
+                    given: highest,
+                },
+            });
         }
         let lines: Vec<OrderLine> =
             self.order_lines().into_iter().filter(|line| line.order < highest).collect();
@@ -48,16 +66,25 @@ impl Job<'_> {
         let track = |width| order_tracks(self.x, theta, self.rate, &orders, width);
         let mut tracks = self.settings.bandwidth.map(track).transpose()?;
         tracks.iter_mut().for_each(|found| shift(&mut found.times));
-        let cuts: Result<_, SignalError> = lines
-            .into_iter()
-            .map(|line| {
-                let cut = map.cut(line.order, resolution)?;
-                Ok((line, cut))
-            })
-            .collect();
+        let cut = |line: OrderLine| {
+            let cut = map.cut(line.order, resolution)?;
+            Ok((line, cut))
+        };
+        let cuts = lines.into_iter().map(cut).collect::<Result<Vec<_>, SignalError>>()?;
+        map.smeared = cuts.iter().filter_map(|(_, cut)| tracker.smear(&records[0], cut)).collect();
         let jitter = self.shaft.and_then(|shaft| shaft.jitter);
         let leaks = tracks.as_ref().zip(jitter).map(|(found, jitter)| jitter.leaks(found, LEAK_SHARE));
-        Ok(ShaftOrders { cuts: cuts?, average, map, tracks, jitter_leaks: leaks.unwrap_or_default() })
+        let mut leaks = leaks.unwrap_or_default();
+        leaks.extend((0..cuts.len()).filter_map(|k| self.lost_by_jitter(k, &cuts[k].1)));
+        Ok(ShaftOrders { cuts, average, map, tracks, jitter_leaks: leaks })
+    }
+
+    /// What the jitter of the shaft angle takes from a cut, if more than a tenth.
+    fn lost_by_jitter(&self, place: usize, cut: &OrderCut) -> Option<JitterLeak> {
+        let kept = amplitude_kept(cut.order, self.shaft?.angle_deviation);
+        let amplitude = (cut.rms.iter().map(|v| v * v).sum::<f64>() / cut.rms.len().max(1) as f64).sqrt();
+        let leak = amplitude * (1.0 / kept.max(f64::MIN_POSITIVE) - 1.0);
+        (1.0 - kept > JITTER_LOSS).then_some(JitterLeak { track: place, neighbour: place, amplitude, leak })
     }
 
     /// The orders asked for, by default 1x, 2x and the bearing's characteristic orders.

@@ -11,6 +11,10 @@ use rotordyn_signal::tacholess::{SpeedLineSettings, speed_from_line};
 
 /// Relative speed variation up to which the speed counts as constant.
 const STEADY_TOLERANCE: f64 = 0.01;
+/// Amplitude of a tracked line over its background.
+const LEAST_LINE: f64 = 4.0;
+/// Ratio of frequencies of a jump of the tracked line that is one to another order.
+const MOST_JUMP: f64 = 1.4;
 /// Number of sections of a record over which speeds are compared.
 const SPEED_SECTIONS: usize = 200;
 
@@ -96,7 +100,7 @@ impl ShaftMotion {
     ///
     /// Frames contain 24 periods at the geometric mean of the two; the line may cross the range in an eighth
     /// of the record.
-    /// Errors: as [`speed_from_line`].
+    /// Errors: as [`speed_from_line`]; no line that stands out of the noise.
     pub fn from_order_line(
         record: &[f64],
         sample_rate: f64,
@@ -114,6 +118,21 @@ impl ShaftMotion {
             frame: (frame as usize).clamp(16, record.len().max(16)),
         };
         let found = speed_from_line(record, sample_rate, &settings)?;
+        if found.over_background < LEAST_LINE {
+            return Err(SignalError::OutOfRange {
+                name: "amplitude of the tracked line over the noise around it",
+                expected: "4 or more, as noise alone has up to 3: there is no line to follow in this range",
+                given: (100.0 * found.over_background).round() / 100.0,
+            });
+        }
+        if found.jump > MOST_JUMP {
+            return Err(SignalError::OutOfRange {
+                name: "ratio of frequencies between which the tracked line jumps",
+                expected: "up to 1.4: the strongest line in the range is that of another order for a time; narrow the range, or \
+                           track the strongest order",
+                given: (100.0 * found.jump).round() / 100.0,
+            });
+        }
         Ok(Self::from_angle(found.theta, 0, sample_rate, source))
     }
 

@@ -6,6 +6,7 @@ use crate::results::UnbalanceResult;
 use crate::study::{Machine, Results};
 use crate::warning::{Code, Warning};
 use rotordyn_linalg::Complex64;
+use std::collections::BTreeSet;
 
 /// A bearing in the linear unbalance response at the speed where its contacts come nearest to opening.
 struct Opening {
@@ -52,12 +53,12 @@ impl Machine {
         let mut found = Vec::new();
         for ((site, state), (displacements, forces)) in bearings {
             let Some(compression) = largest_compression(state) else { continue };
-            let all_loaded = state.balls.iter().all(|contact| contact.load > 0.0);
+            let rows = RowStates::of(state);
             let static_force = state.force[0].hypot(state.force[1]);
             let openings = result.speeds.iter().zip(displacements).enumerate().map(|(k, (speed, &d))| {
                 let (displacement, force) = (semi_major_axis(d), forces.amplitude(k));
-                let by_force = if all_loaded { 0.0 } else { force / static_force };
-                let excess = (displacement / compression).max(by_force);
+                let by_force = if rows.partly_loaded { force / static_force } else { 0.0 };
+                let excess = (displacement / compression).max(displacement / rows.gap).max(by_force);
                 Opening { speed: *speed, displacement, force, excess }
             });
             let Some(worst) = openings.max_by(|a, b| a.excess.total_cmp(&b.excess)) else { continue };
@@ -85,6 +86,31 @@ impl Machine {
                 .push(Warning::new(Code::LinearRange, format!("bearing.{}", site.name), text).advise(advice));
         }
         found
+    }
+}
+
+/// Which contacts of a bearing carry load at rest.
+struct RowStates {
+    /// Whether a row has both loaded and unloaded contacts.
+    partly_loaded: bool,
+    /// Smallest gap of the rows without any load \[m\], infinite without such a row: a motion that closes it meets another
+    /// stiffness.
+    gap: f64,
+}
+
+impl RowStates {
+    fn of(state: &BearingState) -> Self {
+        let mut of = Self { partly_loaded: false, gap: f64::INFINITY };
+        let rows: BTreeSet<usize> = state.balls.iter().map(|contact| contact.row).collect();
+        for row in rows {
+            let contacts = || state.balls.iter().filter(|contact| contact.row == row);
+            let loaded = contacts().filter(|contact| contact.load > 0.0).count();
+            of.partly_loaded |= loaded > 0 && loaded < contacts().count();
+            if loaded == 0 {
+                of.gap = contacts().map(|contact| -contact.deflection).fold(of.gap, f64::min).max(0.0);
+            }
+        }
+        of
     }
 }
 

@@ -9,7 +9,6 @@ mod supports;
 mod tables;
 mod whirl;
 
-pub use run::run_up as run_up_warnings;
 pub(super) use supports::standstill_and_top;
 
 use super::Machine;
@@ -37,7 +36,7 @@ impl Machine {
             vec![Warning::new(Code::NotChecked, "", text)]
         }));
         found.extend(self.linear_warnings(results));
-        found.extend(results.run_up.iter().flat_map(run::run_up));
+        found.extend(results.run_up.iter().flat_map(|run| self.run_up_warnings(run)));
         found.extend(run::sample_rate(&self.model, results));
         found.extend(spectrogram::smeared_orders(&self.model, results));
         found.extend(order_tracks::orders_in_one_band(results));

@@ -1,11 +1,14 @@
 //! Modes: unstable, lost or uncertain.
 
-use crate::analysis::critical_speed::CriticalSpeed;
-use crate::analysis::stability::UNSTABLE;
+use super::supports::standstill_and_top;
+use crate::analysis::campbell::Branch;
+use crate::analysis::critical_speed::{CriticalSpeed, UnstableMode};
+use crate::analysis::divergence::{Divergence, divergence};
+use crate::analysis::stability::is_unstable;
 use crate::analysis::table_range::speed_range;
 use crate::analysis::{Mode, ModeKind, modal};
 use crate::assembly::PhysicsError;
-use crate::document::TO_RPM;
+use crate::document::{TO_RPM, number};
 use crate::results::CriticalResult;
 use crate::study::{Machine, Results};
 use crate::warning::{Code, Warning};
@@ -17,6 +20,22 @@ const ELEMENTS_PER_HALF_WAVE: usize = 2;
 const MODES: usize = 12;
 
 impl Machine {
+    /// A motion that grows without oscillation at standstill, else at the highest of the speeds \[rad/s\].
+    pub(super) fn divergence_warning(&self, speeds: &[f64]) -> Option<Warning> {
+        standstill_and_top(speeds).into_iter().rev().find_map(|speed| {
+            // What cannot be linearised is an error of the study itself.
+            let found = divergence(&self.assembly, &self.linear_system(speed).ok()?)?;
+            let at =
+                if speed == 0.0 { "at standstill".into() } else { format!("at {:.0} rpm", speed * TO_RPM) };
+            let Divergence { rate, motion } = found;
+            let text = format!(
+                "the static equilibrium {at} is unstable: {motion} diverges with e^(λt), λ = {} 1/s",
+                number(rate, 4)
+            );
+            Some(Warning::new(Code::StaticInstability, "", text))
+        })
+    }
+
     /// Unstable modes in the studies of steady responses and critical speeds, whose results do not show them.
     pub(super) fn unstable_mode_warnings(&self, results: &Results) -> Result<Vec<Warning>, PhysicsError> {
         let mut found = Vec::new();
@@ -24,23 +43,31 @@ impl Machine {
         if let (Some(frf), Some(study)) = (&results.frf, &studies.frf) {
             let (item, consequence) = ("study.frf", "frequency responses do not exist");
             found.extend(match &frf.least_damped {
-                Some(mode) => unstable(item, consequence, frf.speed, &mode.label, mode.damping_ratio),
+                Some(mode) if mode.damping_ratio < 0.0 => {
+                    Some(unstable(item, consequence, frf.speed, &mode.label, mode.damping_ratio))
+                }
+                Some(_) => None,
                 None => self.unstable_at(item, consequence, [study.speed])?,
             });
         }
-        if results.unbalance.is_some()
+        if let Some(unbalance) = &results.unbalance
             && let Some([low, high]) = studies.unbalance.as_ref().and_then(|study| speed_range(&study.speeds))
         {
-            let speeds = [low, 0.5 * (low + high), high];
-            found.extend(self.unstable_at(
-                "study.unbalance",
-                "the steady response does not exist",
-                speeds,
-            )?);
+            let (item, consequence) = ("study.unbalance", "the steady response does not exist");
+            found.extend(match &unbalance.unstable {
+                Some(mode) => Some(unstable_mode(item, consequence, mode)),
+                // Modes above the search for the peaks.
+                None => self.unstable_at(item, consequence, [low, 0.5 * (low + high), high])?,
+            });
         }
         if let Some(critical) = &results.critical {
             let (item, speeds) = ("study.critical", [0.5 * critical.max_speed, critical.max_speed]);
-            let at_speeds = self.unstable_at(item, "critical speeds above it are not reached", speeds)?;
+            let consequence = "critical speeds above it are not reached";
+            let at_speeds = match critical.crossings.unstable.first() {
+                Some(mode) => Some(unstable_mode(item, consequence, mode)),
+                // Modes above the search for crossings.
+                None => self.unstable_at(item, consequence, speeds)?,
+            };
             // Stable there, but not in between.
             let first = || unstable_crossings(&critical.crossings.list).next();
             found.extend(at_speeds.or_else(|| first().map(|crossing| unstable_crossing(item, crossing))));
@@ -57,8 +84,9 @@ impl Machine {
     ) -> Result<Option<Warning>, PhysicsError> {
         for speed in speeds {
             let modes = modal::modes(&self.assembly, &self.linear_system(speed)?, MODES)?;
-            let least = modes.iter().min_by(|a, b| a.zeta().total_cmp(&b.zeta()));
-            let found = least.and_then(|mode| unstable(item, consequence, speed, &mode.label, mode.zeta()));
+            let growing = modes.iter().filter(|mode| is_unstable(mode.eigenvalue));
+            let least = growing.min_by(|a, b| a.zeta().total_cmp(&b.zeta()));
+            let found = least.map(|mode| unstable(item, consequence, speed, &mode.label, mode.zeta()));
             if found.is_some() {
                 return Ok(found);
             }
@@ -95,18 +123,21 @@ impl Machine {
     }
 }
 
-/// The warning of a mode at a speed \[rad/s\] with the damping ratio ζ, if it is unstable.
-fn unstable(item: &str, consequence: &str, speed: f64, label: &str, zeta: f64) -> Option<Warning> {
-    (zeta < UNSTABLE).then(|| {
-        let (rpm, zeta) = (speed * TO_RPM, 100.0 * zeta);
-        let text = format!("{label} is unstable at {rpm:.0} rpm (zeta = {zeta:.3} %): {consequence}");
-        Warning::new(Code::UnstableMode, item, text)
-    })
+/// The warning of an unstable mode at a speed \[rad/s\] with the damping ratio ζ.
+fn unstable(item: &str, consequence: &str, speed: f64, label: &str, zeta: f64) -> Warning {
+    let (rpm, zeta) = (speed * TO_RPM, 100.0 * zeta);
+    let text = format!("{label} is unstable at {rpm:.0} rpm (zeta = {zeta:.3} %): {consequence}");
+    Warning::new(Code::UnstableMode, item, text)
+}
+
+fn unstable_mode(item: &str, consequence: &str, mode: &UnstableMode) -> Warning {
+    let label = if mode.label.is_empty() { "a mode" } else { &mode.label };
+    unstable(item, consequence, mode.speed, label, mode.damping_ratio)
 }
 
 /// Crossings of unstable modes with order lines.
 fn unstable_crossings(list: &[CriticalSpeed]) -> impl Iterator<Item = &CriticalSpeed> {
-    list.iter().filter(|crossing| crossing.mode.zeta() < UNSTABLE)
+    list.iter().filter(|crossing| is_unstable(crossing.mode.eigenvalue))
 }
 
 fn unstable_crossing(item: &str, CriticalSpeed { speed, order, mode }: &CriticalSpeed) -> Warning {
@@ -146,21 +177,46 @@ fn shortest_half_wave(shape: &[Complex64]) -> Option<usize> {
     inner.iter().filter(|(_, height)| *height > HIGH * largest).map(|(nodes, _)| *nodes).min()
 }
 
+/// Ranges of the speeds of a diagram in which a branch is unstable, the last one without an end if it is so at the last speed at
+/// which it is known.
+fn unstable_ranges(speeds: &[f64], branch: &Branch) -> Vec<[f64; 2]> {
+    let mut ranges: Vec<[f64; 2]> = Vec::new();
+    let mut is_open = false;
+    for (speed, mode) in
+        speeds.iter().zip(&branch.modes).filter_map(|(speed, mode)| Some((*speed, mode.as_ref()?)))
+    {
+        let grows = is_unstable(mode.eigenvalue);
+        match ranges.last_mut().filter(|_| is_open && grows) {
+            Some(range) => range[1] = speed,
+            None if grows => ranges.push([speed; 2]),
+            None => {}
+        }
+        is_open = grows;
+    }
+    if let Some(range) = ranges.last_mut().filter(|_| is_open) {
+        range[1] = f64::INFINITY;
+    }
+    ranges
+}
+
 pub(super) fn warnings(results: &Results) -> Vec<Warning> {
     let mut found = Vec::new();
     if let Some(diagram) = results.campbell.as_ref().map(|found| &found.diagram) {
-        let unstable = diagram.branches.iter().filter_map(|branch| {
-            let mut at = diagram.speeds.iter().zip(&branch.modes);
-            let first = at.find(|(_, mode)| mode.as_ref().is_some_and(|mode| mode.zeta() < UNSTABLE))?;
-            Some((&branch.label, *first.0))
-        });
-        let unstable: Vec<(&String, f64)> = unstable.collect();
-        found.extend(unstable.iter().map(|(label, speed)| {
-            let text = format!("{label} is unstable from {:.0} rpm on", speed * TO_RPM);
+        let ranges = |branch| (branch, unstable_ranges(&diagram.speeds, branch));
+        let unstable: Vec<(&Branch, Vec<[f64; 2]>)> =
+            diagram.branches.iter().map(ranges).filter(|(_, ranges)| !ranges.is_empty()).collect();
+        found.extend(unstable.iter().map(|(branch, ranges)| {
+            let range = |[from, to]: &[f64; 2]| match () {
+                () if to.is_infinite() => format!("from {:.0} rpm on", from * TO_RPM),
+                () if from == to => format!("at {:.0} rpm", from * TO_RPM),
+                () => format!("from {:.0} to {:.0} rpm", from * TO_RPM, to * TO_RPM),
+            };
+            let ranges = ranges.iter().map(range).collect::<Vec<_>>().join(" and ");
+            let text = format!("{} is unstable {ranges}", branch.label);
             Warning::new(Code::UnstableMode, "study.campbell", text)
         }));
         // Stable at the speeds of the diagram, but not in between.
-        let mut named: Vec<&String> = unstable.into_iter().map(|(label, _)| label).collect();
+        let mut named: Vec<&String> = unstable.into_iter().map(|(branch, _)| &branch.label).collect();
         for crossing in results.campbell.iter().flat_map(|found| unstable_crossings(&found.crossings.list)) {
             if !named.contains(&&crossing.mode.label) {
                 named.push(&crossing.mode.label);
@@ -169,7 +225,7 @@ pub(super) fn warnings(results: &Results) -> Vec<Warning> {
         }
     }
     for at in &results.modal {
-        for mode in at.modes.iter().filter(|mode| mode.zeta() < UNSTABLE) {
+        for mode in at.modes.iter().filter(|mode| is_unstable(mode.eigenvalue)) {
             let (speed, zeta) = (at.speed * TO_RPM, 100.0 * mode.zeta());
             let text = format!("{} is unstable at {speed:.0} rpm: zeta = {zeta:.3} %", mode.label);
             found.push(Warning::new(Code::UnstableMode, "study.modal", text));

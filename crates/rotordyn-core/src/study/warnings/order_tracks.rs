@@ -1,8 +1,10 @@
-//! Orders that the bandwidth of the Vold-Kalman filter does not separate.
+//! Orders that the bandwidth of the Vold-Kalman filter does not separate, and maxima that window or bandwidth lower.
 
 use crate::document::number;
+use crate::results::OrderResult;
 use crate::study::Results;
 use crate::warning::{Code, Warning};
+use rotordyn_signal::order::smear::Smear;
 use rotordyn_signal::order_tracks;
 
 /// The closest pair of tracked orders, if it lies in one pass band.
@@ -20,4 +22,55 @@ pub(super) fn orders_in_one_band(results: &Results) -> Option<Warning> {
         number(width, 3)
     );
     Some(Warning::new(Code::OrdersInOneBand, "study.orders", text))
+}
+
+/// The cut and the track that lose most at their maximum, by the window and by the bandwidth.
+pub(super) fn smeared_maxima(results: &Results) -> Vec<Warning> {
+    let label = |found: &OrderResult, order: f64| {
+        let line = found.cuts.iter().find(|(line, _)| line.order == order);
+        line.map_or_else(|| format!("{}x", number(order, 4)), |(line, _)| line.label.clone())
+    };
+    let worst = |smears: &dyn Fn(&OrderResult) -> Vec<Smear>| {
+        let all: Vec<(&OrderResult, Smear)> = results
+            .orders
+            .iter()
+            .flat_map(|found| smears(found).into_iter().map(move |smear| (found, smear)))
+            .collect();
+        let (found, smear) = *all.iter().max_by(|a, b| a.1.loss.total_cmp(&b.1.loss))?;
+        let more = match all.len() - 1 {
+            0 => String::new(),
+            1 => " (and one more)".into(),
+            n => format!(" (and {n} more)"),
+        };
+        let place =
+            format!("{} of {} at {:.0} rpm{more}", label(found, smear.order), found.channel, smear.rpm);
+        Some((found, smear, place))
+    };
+    let cuts = worst(&|found| found.spectrogram.smeared.clone()).map(|(found, smear, place)| {
+        let resolution = found.spectrogram.orders.get(1).copied().unwrap_or(1.0);
+        let text = format!(
+            "order cuts: the maximum of {place} is {:.0} % or more too low: the amplitude changes within the window of {} \
+             revolutions",
+            100.0 * smear.least_loss(),
+            number(1.0 / resolution, 3)
+        );
+        let advice = format!(
+            "study.orders.resolution = {} (--resolution) halves the window",
+            number((2.0 * resolution).min(1.0), 3)
+        );
+        Warning::new(Code::OrderSmear, "study.orders", text).advise(advice)
+    });
+    let of_tracks = |found: &OrderResult| found.tracks.as_ref().map_or(Vec::new(), |t| t.smeared.clone());
+    let tracks = worst(&of_tracks).map(|(found, smear, place)| {
+        let width = found.tracks.as_ref().map_or(0.0, |tracks| tracks.bandwidth);
+        let text = format!(
+            "order tracks: the maximum of {place} is {:.0} % or more too low: the amplitude changes faster than the bandwidth \
+             of {} orders lets through",
+            100.0 * smear.least_loss(),
+            number(width, 3)
+        );
+        let advice = format!("study.orders.bandwidth (--bandwidth) of {} or more", number(3.0 * width, 3));
+        Warning::new(Code::OrderSmear, "study.orders", text).advise(advice)
+    });
+    cuts.into_iter().chain(tracks).collect()
 }

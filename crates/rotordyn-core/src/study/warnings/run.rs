@@ -1,50 +1,107 @@
 //! Runs: energy balance, step, reduced model, settling.
 
+use crate::analysis::stability::is_unstable;
+use crate::analysis::{Mode, modal};
+use crate::assembly::PhysicsError;
 use crate::document::{TO_RPM, number};
 use crate::model::Model;
 use crate::results::{BifurcationPoint, RunUpResult};
-use crate::study::Results;
+use crate::study::{Machine, Results};
+use crate::transient::run::{End, Report};
 use crate::warning::{Code, Warning};
 use std::f64::consts::TAU;
 
 /// Residual of the energy balance over the energy exchanged, above which the step is too long.
 const OPEN_BALANCE: f64 = 1e-3;
+/// Round-off of a step's energies, in that of one operation.
+const ROUND_OFFS: f64 = 16.0;
+/// Linear modes looked at where a motion grows, and exponent of their growth from which they matter.
+const MODES: usize = 12;
+const GROWTH: f64 = 3.0;
 /// Relative error of a level by the step.
 const LEVEL_ERROR: f64 = 0.05;
 /// Relative error of the reduced model's natural frequencies.
 const FREQUENCY_ERROR: f64 = 0.01;
 
-/// Warnings of a run-up: energy balance, error by the step, error of the reduced model.
-pub fn run_up(run: &RunUpResult) -> Vec<Warning> {
-    let mut found = Vec::new();
-    let mut warn = |code, text: String, advice: String| {
-        found.push(Warning::new(code, "study.run_up", text).advise(advice));
-    };
-    let energy = &run.report.energy;
-    let open = energy.residual().abs() / energy.exchanged().max(f64::MIN_POSITIVE);
-    if open > OPEN_BALANCE {
-        let text = format!("the energy balance of the run-up has a residual of {:.2} %", 100.0 * open);
-        let step = if run.report.defect_step.is_some() { "step or defect_step" } else { "the time step" };
-        warn(Code::EnergyBalance, text, format!("reduce {step}"));
+impl Machine {
+    /// Warnings of a run-up: energy balance and what makes the motion grow, error by the step, error of the reduced model.
+    pub fn run_up_warnings(&self, run: &RunUpResult) -> Vec<Warning> {
+        let mut found = Vec::new();
+        let mut warn = |code, text: String, advice: String| {
+            found.push(Warning::new(code, "study.run_up", text).advise(advice));
+        };
+        let energy = &run.report.energy;
+        let residual = energy.residual().abs();
+        let open = residual / energy.exchanged().max(f64::MIN_POSITIVE);
+        let is_open = open > OPEN_BALANCE && residual > rounding(&run.report);
+        let diverged = matches!(run.report.end, End::Failed(PhysicsError::Diverged { .. }));
+        let unstable = if is_open || diverged { self.growing_mode(run) } else { None };
+        if let Some((speed, mode)) = &unstable {
+            let text = format!(
+                "{} is unstable at {:.0} rpm (zeta = {:.3} %): the motion grows by itself{}",
+                mode.label,
+                speed * TO_RPM,
+                100.0 * mode.zeta(),
+                if diverged { ", the likely cause of the divergence" } else { "" }
+            );
+            warn(Code::UnstableMode, text, Code::UnstableMode.advice().into());
+        }
+        if is_open {
+            let text = format!("the energy balance of the run-up has a residual of {:.2} %", 100.0 * open);
+            let advice = match (&unstable, run.report.step, run.report.defect_step) {
+                (Some(_), ..) => "the motion grows by itself, which no time step prevents; see unstable-mode",
+                (None, None, _) => "reduce relative_tolerance and absolute_tolerance, which choose the steps",
+                (None, _, Some(_)) => "reduce step or defect_step",
+                _ => "reduce the time step",
+            };
+            warn(Code::EnergyBalance, text, advice.into());
+        }
+        let worst = run.step_error.as_ref().and_then(|e| e.worst());
+        if let Some(line) = worst.filter(|line| line.error.abs() > LEVEL_ERROR) {
+            let step = run.report.step.unwrap_or_default();
+            let text = format!(
+                "the time step of {:.4} us changes the level of {} of {} by about {:.0} %",
+                1e6 * step,
+                line.line.label,
+                line.channel,
+                100.0 * line.error.abs()
+            );
+            let needed = 1e6 * step * (0.01 / line.error.abs()).sqrt();
+            warn(Code::TimeStep, text, format!("about {needed:.3} us would give 1 %"));
+        }
+        if run.frequency_error > FREQUENCY_ERROR {
+            let text =
+                format!("frequency error of the reduced model is {:.1} %", 100.0 * run.frequency_error);
+            warn(Code::Reduction, text, "raise the cutoff".into());
+        }
+        found
     }
-    let worst = run.step_error.as_ref().and_then(|e| e.worst());
-    if let Some(line) = worst.filter(|line| line.error.abs() > LEVEL_ERROR) {
-        let step = run.report.step.unwrap_or_default();
-        let text = format!(
-            "the time step of {:.4} us changes the level of {} of {} by about {:.0} %",
-            1e6 * step,
-            line.line.label,
-            line.channel,
-            100.0 * line.error.abs()
-        );
-        let needed = 1e6 * step * (0.01 / line.error.abs()).sqrt();
-        warn(Code::TimeStep, text, format!("about {needed:.3} us would give 1 %"));
+
+    /// The least damped of the linear modes that grow by e^3 or more within the run, at the speed where it ended or at its
+    /// highest one; with that speed \[rad/s\].
+    fn growing_mode(&self, run: &RunUpResult) -> Option<(f64, Mode)> {
+        let duration = run.summary.samples as f64 / run.history.sample_rate;
+        let ended = match &run.report.end {
+            End::Failed(PhysicsError::Diverged { speed_rpm, .. }) => Some(speed_rpm / TO_RPM),
+            _ => None,
+        };
+        let highest = run.summary.speed_range.iter().flatten().fold(0.0, |top: f64, v| top.max(v.abs()));
+        let speed = ended.unwrap_or(highest);
+        // What cannot be linearised there has no modes.
+        let modes = modal::modes(&self.assembly, &self.linear_system(speed).ok()?, MODES).ok()?;
+        let growing = modes.into_iter().filter(|mode| {
+            is_unstable(mode.eigenvalue) && (ended.is_some() || mode.eigenvalue.re * duration > GROWTH)
+        });
+        growing.min_by(|a, b| a.zeta().total_cmp(&b.zeta())).map(|mode| (speed, mode))
     }
-    if run.frequency_error > FREQUENCY_ERROR {
-        let text = format!("frequency error of the reduced model is {:.1} %", 100.0 * run.frequency_error);
-        warn(Code::Reduction, text, "raise the cutoff".into());
-    }
-    found
+}
+
+/// Round-off of the energy balance \[J\]: that of its largest term at every step, which adds up by chance.
+fn rounding(report: &Report) -> f64 {
+    let e = &report.energy;
+    let terms = [e.kinetic, e.strain, e.contact, e.start, e.work, e.drive, e.parametric];
+    let largest = terms.iter().fold(0.0, |largest: f64, term| largest.max(term.abs()));
+    ROUND_OFFS * f64::EPSILON * largest * (report.steps.max(1) as f64).sqrt()
 }
 
 /// The highest order line of the spectrograms that leaves the record: above half its sampling rate at the highest speed.

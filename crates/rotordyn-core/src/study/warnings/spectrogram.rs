@@ -1,5 +1,6 @@
 //! Spectrograms whose window is too long for the change of speed within it.
 
+use super::order_tracks::smeared_maxima;
 use crate::document::number;
 use crate::model::Model;
 use crate::model::study::WindowKind;
@@ -13,6 +14,13 @@ const SAMPLES: usize = 256;
 /// Width of an order line over that in the best window, above which a window is too long.
 const WIDTH_RATIO: f64 = 2.0;
 
+/// Order lines that a window of the spectrogram, of the cuts or of the tracks smears.
+pub(super) fn smeared_orders(model: &Model, results: &Results) -> Vec<Warning> {
+    let mut found: Vec<Warning> = smeared_line(model, results).into_iter().collect();
+    found.extend(smeared_maxima(results));
+    found
+}
+
 /// The highest order line shown, if a window is too long for it.
 ///
 /// Within a window of length T an order n sweeps over β = n ḟ T² lines of 1/T, ḟ the rate of the rotational frequency. A
@@ -21,7 +29,7 @@ const WIDTH_RATIO: f64 = 2.0;
 /// steady level): shorter windows resolve less, longer ones smear. B/B₀ = √(½ (β₀/β + β/β₀)) reaches 2 at
 /// β = (4 + √15) β₀ = 7.9 β₀ (Hann: 31 lines, 9 dB low). Below it a window is a matter of taste: the usual 1 s in a ramp
 /// to 3000 rpm within 5 s sweeps 10 lines, 1.2 times the least width.
-pub(super) fn smeared_orders(model: &Model, results: &Results) -> Option<Warning> {
+fn smeared_line(model: &Model, results: &Results) -> Option<Warning> {
     let study = model.studies.spectrogram.as_ref()?;
     let rate = match &results.run_up {
         Some(run) => fastest(&run.history, study.length),

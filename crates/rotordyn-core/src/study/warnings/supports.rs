@@ -30,6 +30,7 @@ impl Machine {
             let text = format!("the supports are not checked: {error}");
             vec![Warning::new(Code::NotChecked, "", text)]
         });
+        found.extend(self.divergence_warning(speeds));
         found.extend(self.belt_pulls().iter().filter_map(belt));
         found.extend(self.mounted_preloads().iter().filter_map(preload));
         found

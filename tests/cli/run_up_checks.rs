@@ -1,0 +1,167 @@
+//! What a run-up says of itself: energy balance, instability, error by the step, names of cuts, and its exit code.
+
+use super::rotordyn;
+use serde_json::Value;
+
+/// A rigid rotor of 5 kg on two bearings; `more`: tables after the bearings.
+fn rotor(bearings: [&str; 2], more: &str) -> String {
+    format!(
+        r#"
+        [model]
+        name = "rotor"
+        gravity = "9.81 m/s^2"
+        [rotor]
+        centre = "100 mm"
+        mass = "5 kg"
+        polar_inertia = "0.01 kg m^2"
+        diametral_inertia = "0.03 kg m^2"
+        [station]
+        A = "0 mm"
+        D = "60 mm"
+        B = "200 mm"
+        [bearing.A]
+        station = "A"
+        {}
+        [bearing.B]
+        station = "B"
+        {}
+        [probe.Ay]
+        at = "station.A"
+        direction = "y"
+        [probe.Bx]
+        at = "station.B"
+        direction = "x"
+        quantity = "velocity"
+        [probe.By]
+        at = "station.B"
+        direction = "y"
+        quantity = "acceleration"
+        {more}
+        "#,
+        bearings[0], bearings[1]
+    )
+}
+
+const LINEAR: &str = "model = \"linear\"\nk_xx = \"2e6 N/m\"\nk_yy = \"3e6 N/m\"\nk_zz = \"1e6 N/m\"\n\
+                      c_xx = \"150 N s/m\"\nc_yy = \"150 N s/m\"\n";
+const CROSS_COUPLED: &str = "model = \"linear\"\nk_xx = \"1e7 N/m\"\nk_yy = \"1e7 N/m\"\nk_zz = \"1e7 N/m\"\n\
+                             k_xy = \"3e6 N/m\"\nk_yx = \"-3e6 N/m\"\nc_xx = \"50 N s/m\"\nc_yy = \"50 N s/m\"\n";
+const UNBALANCE: &str = "[unbalance.u]\nstation = \"D\"\nmagnitude = \"60 g mm\"\n";
+
+/// The document of a command on a model; `exit`: its exit code.
+fn document(text: &str, arguments: &[&str], exit: i32) -> Value {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("model.toml"), text).unwrap();
+    let mut command = rotordyn();
+    command.current_dir(folder.path()).args(arguments).args([
+        "--json",
+        "--quiet",
+        "--no-figures",
+        "--out",
+        "out",
+    ]);
+    serde_json::from_slice(&command.assert().code(exit).get_output().stdout).unwrap()
+}
+
+fn warnings<'a>(document: &'a Value, code: &str) -> Vec<&'a Value> {
+    document["warnings"].as_array().unwrap().iter().filter(|w| w["code"] == code).collect()
+}
+
+fn speed(profile: &str, more: &str) -> String {
+    format!("[speed]\nprofile = {profile}\n{more}")
+}
+
+/// A balanced rotor does not move but by round-off, of which no step is to blame: neither at constant speed nor in a ramp.
+#[test]
+fn round_off_is_no_error_of_the_step() {
+    let ramp = speed("\"ramp\"\nfrom = \"2000 rpm\"\nto = \"14000 rpm\"\nramp = \"1 s\"", "[study.run_up]\n");
+    let still = speed("\"constant\"\nspeed = \"600 rpm\"\nduration = \"1 s\"", "[study.run_up]\n");
+    for more in [&ramp, &still] {
+        let found = document(&rotor([LINEAR, LINEAR], more), &["run-up", "model.toml"], 0);
+        for code in ["energy-balance", "time-step"] {
+            assert!(warnings(&found, code).is_empty(), "{:?}", found["warnings"]);
+        }
+    }
+    // With an unbalance the step matters.
+    let coarse = ramp.replace("[study.run_up]", "[study.run_up]\nstep = \"500 us\"");
+    let found =
+        document(&rotor([LINEAR, LINEAR], &format!("{coarse}{UNBALANCE}")), &["run-up", "model.toml"], 0);
+    assert!(!warnings(&found, "time-step").is_empty(), "{:?}", found["warnings"]);
+}
+
+/// Cross-coupled stiffness makes the forward whirl grow until the run diverges: the mode is named, and the totals of the energies
+/// are those of one instant: what is left is the error of Newmark's steps, a few percent.
+#[test]
+fn divergence_names_the_unstable_mode() {
+    let more = speed("\"constant\"\nspeed = \"3000 rpm\"\nduration = \"3 s\"", "[study.run_up]\n");
+    let more = format!("{more}{UNBALANCE}");
+    let found = document(&rotor([CROSS_COUPLED, CROSS_COUPLED], &more), &["run-up", "model.toml"], 3);
+    let unstable = warnings(&found, "unstable-mode");
+    assert_eq!(unstable.len(), 1, "{:?}", found["warnings"]);
+    let text = unstable[0]["text"].as_str().unwrap();
+    assert!(text.contains("3000 rpm") && text.contains("likely cause of the divergence"), "{text}");
+    for open in warnings(&found, "energy-balance") {
+        assert!(!open["advice"].as_str().unwrap().contains("reduce"), "{open}");
+    }
+    let energy = &found["run_up"]["energy_j"];
+    let [residual, change] = ["residual", "stored_change"].map(|key| energy[key].as_f64().unwrap());
+    assert!(change > 1.0 && residual.abs() < 0.1 * change, "{energy}");
+}
+
+/// Dormand-Prince's steps hold the energies at the default tolerance, on stiff contacts too; a coarse one is said to be so by the
+/// keys that change it.
+#[test]
+fn tolerance_of_error_control_holds_the_energies() {
+    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/models/jeffcott.toml");
+    let arguments = |more: &'static str| ["run-up", model, "--integrator", "dormand-prince", "--set", more];
+    let found = document("", &arguments("speed.ramp = \"0.4 s\""), 0);
+    assert!(warnings(&found, "energy-balance").is_empty(), "{:?}", found["warnings"]);
+    let more = [
+        "--set",
+        "study.run_up.relative_tolerance = 1e-2",
+        "--set",
+        "study.run_up.absolute_tolerance = \"1e-6 m\"",
+    ];
+    let arguments = [&arguments("speed.ramp = \"0.4 s\"")[..], &more].concat();
+    for open in warnings(&document("", &arguments, 0), "energy-balance") {
+        assert!(open["advice"].as_str().unwrap().contains("relative_tolerance"), "{open}");
+    }
+}
+
+/// Two ball bearings of different size: cuts say the bearing, and checks of the step concern the channels that are asked for.
+#[test]
+fn cuts_of_two_bearings_are_named_by_them() {
+    let ball = |balls: u32| {
+        format!(
+            "model = \"ball\"\nballs = {balls}\nball_diameter = \"9 mm\"\npitch_diameter = \"45 mm\"\n\
+             inner_osculation = 0.515\nouter_osculation = 0.525\nradial_clearance = \"5 um\"\nball_inertia = \"none\"\n"
+        )
+    };
+    let study = "[bushing.damp]\nbetween = [\"rotor\", \"ground\"]\nc_x = \"300 N s/m\"\nc_y = \"300 N s/m\"\n\
+                 k_z = \"1e5 N/m\"\nc_z = \"300 N s/m\"\n[study.run_up]\nsample_rate = \"5 kHz\"\n[study.orders]\n\
+                 resolution = 0.5\nmax_order = 8\ncuts = [1, \"A.BPFO\", \"B.BPFO\"]\nchannels = [\"Ay\"]\n";
+    let more = speed("\"ramp\"\nfrom = \"1000 rpm\"\nto = \"6000 rpm\"\nramp = \"0.3 s\"", study);
+    let labels = |bearings: [u32; 2], text: &str| {
+        let [a, b] = bearings.map(ball);
+        let found = document(&rotor([&a, &b], text), &["run", "model.toml"], 0);
+        let cuts = found["orders"][0]["cuts"].as_array().unwrap();
+        let names: Vec<String> = cuts.iter().map(|cut| cut["label"].as_str().unwrap().to_string()).collect();
+        let lines = found["run_up"]["step_error"]["lines"].as_array().cloned().unwrap_or_default();
+        assert!(!lines.is_empty() && lines.iter().all(|line| line["channel"] == "Ay"), "{lines:?}");
+        names
+    };
+    let text = format!("{more}{UNBALANCE}");
+    assert_eq!(labels([9, 8], &text), ["1x", "A.BPFO", "B.BPFO"]);
+    let same = text.replace("\"A.BPFO\", \"B.BPFO\"", "\"BPFO\"");
+    assert_eq!(labels([8, 8], &same), ["1x", "BPFO"]);
+}
+
+/// A run-up that is done, but has too few revolutions for its cuts: no fault of the input.
+#[test]
+fn cuts_that_cannot_be_made_are_no_invalid_input() {
+    let study = "[study.run_up]\n[study.orders]\nresolution = 0.5\nmax_order = 8\ncuts = [1]\n";
+    let more = speed("\"constant\"\nspeed = \"600 rpm\"\nduration = \"0.05 s\"", study);
+    let found =
+        document(&rotor([LINEAR, LINEAR], &format!("{more}{UNBALANCE}")), &["run-up", "model.toml"], 3);
+    assert_eq!(found["run_up"]["end"], "complete");
+}
