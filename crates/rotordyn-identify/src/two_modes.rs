@@ -38,6 +38,9 @@ pub(super) fn noise(at: &FitPoint, lines: usize) -> f64 {
     at.residual.as_slice().chunks(lines).map(of).sum()
 }
 
+/// MAC above which a second pole may take up what differs between the FRFs of one mode.
+const UNLIKE: f64 = 0.3;
+
 /// Whether two poles, which take the place of the poles `taken`, are two modes with shapes of a MAC below `shapes`.
 pub(super) fn are_two(
     data: &Data,
@@ -66,7 +69,7 @@ pub(super) fn are_two(
     let here = Problem::new(&window.data);
     let two = here.refine(all, TOGETHER_STEPS);
     let (a, b) = (two.poles.len() - 2, two.poles.len() - 1);
-    if least_mac(&window.data, &two, a, b) > shapes {
+    if least_mac(&window.data, &two, a, b) > shapes.min(UNLIKE) {
         return false;
     }
     let values = [two.poles[a].value, two.poles[b].value];

@@ -15,7 +15,7 @@ use super::segment::{Level, SegmentTransform};
 use super::stft::interpolate_at;
 use super::window::WindowKind;
 use rotordyn_linalg::fft_length;
-use smear::{Smear, loss_by_window, taken_by_window};
+use smear::{Smear, is_passed, loss_by_window, taken_by_window};
 
 /// Settings of order tracking.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -235,7 +235,11 @@ impl OrderTracker {
         let (highest, neighbours) = highest.and_then(|k| Some((k, found[k]?)))?;
         let all: Vec<f64> = found.iter().flatten().map(|values| taken_by_window(*values)).collect();
         let loss = loss_by_window(neighbours[1].norm(), taken_by_window(neighbours), &all);
-        loss.map(|loss| Smear { order: cut.order, rpm: cut.rpm[highest], loss })
+        loss.filter(|_| is_passed(cut.rpm[highest], &cut.rpm)).map(|loss| Smear {
+            order: cut.order,
+            rpm: cut.rpm[highest],
+            loss,
+        })
     }
 
     /// x e^{−jνθ} of every part.

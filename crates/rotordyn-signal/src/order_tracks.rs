@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use super::SignalError;
 use super::error::check;
-use super::order::smear::{Smear, loss_by_filter};
+use super::order::smear::{Smear, is_passed, loss_by_filter};
 use super::vold_kalman::{Bandwidth, TrackedOrder, shaft_speed, smallest_bandwidth, vold_kalman};
 
 /// Points of a track in the time 1/B in which the narrowest pass band at the highest speed lets an amplitude change.
@@ -97,7 +97,7 @@ pub fn order_tracks(
         let amplitude: Vec<Complex<f64>> = places.iter().map(|&n| envelope.amplitude[n]).collect();
         let band = |k: usize| (width * rpm[k] / 60.0).max(min_hertz);
         let (highest, loss) = loss_by_filter(&times, &amplitude, band)?;
-        Some(Smear { order: envelope.order, rpm: rpm[highest], loss })
+        is_passed(rpm[highest], &rpm).then(|| Smear { order: envelope.order, rpm: rpm[highest], loss })
     });
     Ok(OrderTracks {
         smeared: smeared.collect(),

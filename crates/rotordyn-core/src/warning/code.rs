@@ -201,15 +201,17 @@ codes! {
         "raise study.run_up.sample_rate, or ask for lower orders";
     OrderSmear, "order-smear", Caution,
         "The speed changes so much within a window of a spectrogram that an order line is more than twice as wide as a shorter \
-         window would show it, and too low.",
-        "shorten study.spectrogram.length, or see the order cuts of [study.orders], which follow the shaft angle";
+         window would show it, and too low; or the amplitude of an order changes so much within a window of the order tracking, or \
+         within the response of a Vold-Kalman filter, that the maximum of its cut is too low.",
+        "shorten study.spectrogram.length, or see the order cuts of [study.orders], which follow the shaft angle; of a cut, \
+         shorten the window (resolution, --resolution, --order-resolution) or widen --bandwidth";
     OrdersInOneBand, "orders-in-one-band", Caution,
         "Two orders that the Vold-Kalman filter tracks lie in one pass band: their amplitudes are told apart only as far as \
          they change more slowly than the two beat.",
         "narrow study.orders.bandwidth (or --bandwidth), as far as the amplitudes change slowly enough for it, or track one of the two";
     TachoJitter, "tacho-jitter", Caution,
         "A tracked order lies beside a stronger one which the jitter of the tacho pulses modulates: part of what is read there is \
-         the stronger order's.",
+         the stronger order's. Or jitter, as of a coarsely sampled tacho, lowers an order, or the pulses are aliased.",
         "sample the tacho channel faster, use more pulses per revolution, or narrow --bandwidth";
     FreeBalls, "free-balls", Caution,
         "A study of balls and cage as free bodies, or their comparison with a kinematic cage, could not be computed.",

@@ -57,7 +57,7 @@ keys! {
             "Times of a load history, with straight lines between them; it is no part of the statics, a run starts without it.")
             .required("with factor").with("factor = [0, 1]").example("\"0, 0.1 s\"");
         factor: Quantities = quantities(any(NUMBER), "as many as time",
-            "Factor of the load at these times; the first one holds from the start of the run on, the last one to its end: 0 for a load that sets in later, or ends.")
+            "Factor of the load at these times; the first holds from the start of the run, the last to its end: 0 where there is no load.")
             .required("with time").with("time = \"0, 0.1 s\"").example("[0, 1]");
         band: Quantities = quantities(not_negative(FREQUENCY), "two, increasing", "Frequencies between which the spectrum of a random load is flat; force and moment are its RMS values.")
             .optional().example("\"5, 500 Hz\"");

@@ -133,14 +133,42 @@ impl OwnHit {
 const QUIET: f64 = 0.2;
 const MIN_QUIET: usize = 16;
 
-/// A block without the offset of its channel, the median before the block; that of the record if it begins there.
+/// Offset of a force over its standard error, and of a response over the deviation of its motion, from which it is one.
+const OF_FORCE: f64 = 6.0;
+const OF_RESPONSE: f64 = 3.0;
+
+/// Median of samples at rest, and the deviation about it.
+fn rest(quiet: &[f64]) -> [f64; 2] {
+    let middle = median(quiet.to_vec());
+    [middle, 1.4826 * median(quiet.iter().map(|v| (v - middle).abs()).collect())]
+}
+
+/// Offset of a force at rest; 0 if noise may have made it.
+fn force_offset(quiet: &[f64]) -> f64 {
+    let [middle, deviation] = rest(quiet);
+    // Standard error of a median of normal deviates.
+    let error = 1.2533 * deviation / (quiet.len().max(1) as f64).sqrt();
+    if middle.abs() > OF_FORCE * error { middle } else { 0.0 }
+}
+
+/// Offset of a response; 0 if it may be of the motion that the hit before has left.
+fn response_offset(quiet: &[f64]) -> f64 {
+    let [middle, deviation] = rest(quiet);
+    if middle.abs() > OF_RESPONSE * deviation { middle } else { 0.0 }
+}
+
+/// A block without the offset of its channel, what it reads before the block; that of the record if it begins there.
 ///
 /// The force window keeps an offset over its length only: the force would have another spectrum. An exponential window turns
 /// that of a response into a decay.
-fn without_offset(samples: &[f64], block: &Range<usize>, rate: f64) -> Vec<f64> {
+fn without_offset(
+    samples: &[f64],
+    block: &Range<usize>,
+    rate: f64,
+    offset: impl Fn(&[f64]) -> f64,
+) -> Vec<f64> {
     let quiet = block.start.saturating_sub((QUIET * rate).round() as usize)..block.start;
-    let of = if quiet.len() < MIN_QUIET { samples } else { &samples[quiet] };
-    let offset = median(of.to_vec());
+    let offset = offset(if quiet.len() < MIN_QUIET { samples } else { &samples[quiet] });
     samples[block.clone()].iter().map(|v| v - offset).collect()
 }
 
@@ -174,8 +202,8 @@ fn inspect_all<'a>(
         let (samples, values) = (force.time_samples()?, own.time_samples()?);
         for block in blocks {
             let hit = OwnHit {
-                force: without_offset(samples, block, rate),
-                response: without_offset(values, block, rate),
+                force: without_offset(samples, block, rate, force_offset),
+                response: without_offset(values, block, rate, response_offset),
             };
             let quality = inspect(&hit.as_hit(), &Limits::default(), Some(window))?;
             if quality.is_good() {
@@ -283,7 +311,7 @@ fn blocks(
     warnings: &mut Vec<String>,
 ) -> Result<Vec<Range<usize>>, RecordError> {
     let force = record.time_samples()?;
-    let offset = median(force.to_vec());
+    let offset = force_offset(force);
     let force: &[f64] = &force.iter().map(|f| f - offset).collect::<Vec<_>>();
     let samples = |seconds: f64| (seconds * rate).round().max(1.0) as usize;
     let largest = force.iter().fold(0.0, |m: f64, f| m.max(f.abs()));

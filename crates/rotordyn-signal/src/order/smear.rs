@@ -46,6 +46,17 @@ impl Smear {
     }
 }
 
+/// Part of the range of speeds at either end in which a maximum is that of the run's beginning or end, where amplitudes grow
+/// or stay, not a passage.
+const ENDS: f64 = 0.05;
+
+/// Whether a speed is passed: within the range of `rpm`, apart from its ends.
+pub fn is_passed(rpm: f64, all: &[f64]) -> bool {
+    let [low, high] = [f64::min, f64::max].map(|of: fn(f64, f64) -> f64| all.iter().copied().fold(rpm, of));
+    let margin = ENDS * (high - low);
+    rpm > low + margin && rpm < high - margin
+}
+
 /// Amplitude by windows, and by windows a quarter of one before and behind.
 pub(super) type Neighbours = [Complex<f64>; 3];
 

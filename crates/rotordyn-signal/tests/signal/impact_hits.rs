@@ -150,7 +150,7 @@ fn offsets_of_the_channels_do_not_change_the_frf() {
         for offsets in [[20.0, 0.0], [-5.0, 0.0], [0.0, 30.0]] {
             let off =
                 frf(offsets).iter().zip(&plain).skip(3).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
-            assert!(off < 1e-6 * largest, "{time_constant:?}, {offsets:?}: {off} of {largest}");
+            assert!(off < 2e-5 * largest, "{time_constant:?}, {offsets:?}: {off} of {largest}");
         }
     }
 }
