@@ -15,7 +15,6 @@ use super::pairs::{self, Split};
 use super::plscf::{Pole, StablePole, damping_ratio};
 use super::refine::{FitPoint, MIN_LOCAL_GAIN, Problem, significance};
 use super::reweight::reweight;
-use super::two_modes::are_two;
 use super::uncertainty::{PoleCovariance, covariance, standard_errors, white_noise_covariance};
 use super::{DroppedPole, QualityWarning, Settings};
 use rotordyn_linalg::Complex64;
@@ -91,10 +90,6 @@ pub(super) fn select_modes(
         .zip(&mut quality_warnings)
         .filter(|(pole, _)| pole.held)
         .for_each(|(_, own)| own.push(QualityWarning::Held));
-    for (m, pull) in pulls(&problem, &at) {
-        covariance[m][0] += pull.re * pull.re;
-        covariance[m][1] += pull.im * pull.im;
-    }
     let fit = problem.fit(&at);
     Some(SelectedModes {
         poles: at.poles,
@@ -103,29 +98,6 @@ pub(super) fn select_modes(
         significance: settled.significance,
         quality_warnings,
     })
-}
-
-/// Held poles, and how far the FRFs draw each away, at most by its decay rate: the scatter over the orders does not contain this
-/// error of the model.
-fn pulls(problem: &Problem, at: &FitPoint) -> Vec<(usize, Complex64)> {
-    if at.poles.iter().all(|pole| !pole.held) {
-        return Vec::new();
-    }
-    let free: Vec<Pole> = at.poles.iter().map(|pole| Pole { held: false, ..pole.clone() }).collect();
-    let free = problem.refine(free, 0);
-    let moved = problem.step(&free).damped_step(&free.poles, 0.0).map(|(poles, _)| poles);
-    let pull = |m: usize| {
-        let (pole, decay) = (&at.poles[m], at.poles[m].value.re.abs());
-        // Undetermined: all of it.
-        let all = Complex64::new(decay, decay);
-        let by = moved.as_ref().map_or(all, |moved| moved[m].value - pole.value);
-        let size = by.norm();
-        if !size.is_finite() {
-            return (m, all);
-        }
-        (m, by * (decay / size.max(decay)))
-    };
-    (0..at.poles.len()).filter(|m| at.poles[*m].held).map(pull).collect()
 }
 
 /// The fit with the pairs that are certain, and the poles of modes that may be two.
@@ -179,8 +151,6 @@ fn settle(
     dropped: &mut Vec<DroppedPole>,
 ) -> Option<RefinedModes> {
     let band = problem.data().band();
-    // Splits that are left.
-    let mut splits = poles.len();
     let mut at = problem.refine(poles, FINAL_STEPS);
     let mut duplicates = Vec::new();
     loop {
@@ -221,17 +191,6 @@ fn settle(
         let Some(worst) = worst else {
             return Some(RefinedModes { at, covariance, significance, duplicates });
         };
-        // A mode that is uncertain because it is two.
-        if splits > 0
-            && let Some(pair) = pairs::certain_pair(problem, &at, worst, settings)
-        {
-            splits -= 1;
-            let mut poles = at.poles;
-            poles.remove(worst);
-            poles.extend(pair);
-            at = problem.refine(poles, FINAL_STEPS);
-            continue;
-        }
         dropped.extend(fault(worst));
         at = refined_without(problem, at, worst)?;
     }
@@ -306,7 +265,7 @@ fn remove_faulty_poles(
     let fault_of = |m: usize| {
         let weak = significance_fault(&at.poles[m], covariance[m], significance[m], band)
             .map(|fault| (fault, false));
-        weak.or_else(|| Some((duplicate_fault(problem, at, m, &significance)?, true)))
+        weak.or_else(|| Some((duplicate_fault(problem.data(), at, m, &significance)?, true)))
     };
     let worst = (0..count)
         .filter_map(|m| Some((m, fault_of(m)?)))
@@ -392,8 +351,7 @@ const MIN_DUPLICATE_MAC: f64 = 0.7;
 ///
 /// MAC of the shapes as measured or as scaled for the fit: the fit's weights amplify outputs of small motion,
 /// over which duplicates split at random.
-fn duplicate_fault(problem: &Problem, at: &FitPoint, m: usize, significance: &[f64]) -> Option<DroppedPole> {
-    let data = problem.data();
+fn duplicate_fault(data: &Data, at: &FitPoint, m: usize, significance: &[f64]) -> Option<DroppedPole> {
     let fitted = |m: usize| (0..at.x.ncols()).map(|o| at.shape(m, o)).collect::<Vec<_>>();
     let measured = |m: usize| {
         let scaled = fitted(m).into_iter().zip(&data.output_scale);
@@ -401,11 +359,7 @@ fn duplicate_fault(problem: &Problem, at: &FitPoint, m: usize, significance: &[f
     };
     let other = stronger_neighbours(at, m, significance).find(|&k| {
         let shape_mac = || mac(&fitted(m), &fitted(k)).max(mac(&measured(m), &measured(k)));
-        let are_two = || {
-            let (fit, pair) = (problem.fit(at), [&at.poles[m], &at.poles[k]]);
-            are_two(data, &at.poles, &fit, &[m, k], pair, MIN_DUPLICATE_MAC)
-        };
-        at.x.ncols() >= MIN_DUPLICATE_OUTPUTS && shape_mac() > MIN_DUPLICATE_MAC && !are_two()
+        at.x.ncols() >= MIN_DUPLICATE_OUTPUTS && shape_mac() > MIN_DUPLICATE_MAC
     })?;
     let reason = format!("duplicate of the mode at {:.3} Hz", at.poles[other].value.im / TAU);
     Some(DroppedPole { value: at.poles[m].value, reason })

@@ -67,7 +67,7 @@ mod tests {
         let [same, one] = [[("A", of(3.2)), ("B", of(3.2))].to_vec(), [("A", of(3.2))].to_vec()];
         for bearings in [&same, &one] {
             assert_eq!(label(3.2, bearings).unwrap(), "BPFO");
-            assert_eq!(label(9.6, bearings).unwrap(), "2 BPFI");
+            assert_eq!(label(14.4, bearings).unwrap(), "3 BPFI");
         }
         let three = [("A", of(3.2)), ("B", of(3.1)), ("C", of(3.2))];
         assert_eq!(label(3.2, &three).unwrap(), "A+C.BPFO");

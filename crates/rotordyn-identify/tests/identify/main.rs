@@ -2,16 +2,12 @@
 
 mod drift;
 mod exact;
-mod exponential_window;
 mod full_band;
-mod heavy_damping;
 mod known_modes;
 mod model_error;
 mod noise;
-mod noise_only;
 mod pairs;
 mod random;
 mod refusals;
 mod residual_terms;
 mod single;
-mod whirl_pairs;

@@ -1,8 +1,7 @@
 //! Hits of an impact test: found in a record, and their quality.
 
 use rotordyn_signal::SignalError;
-use rotordyn_signal::impact::{Hit, ImpactTest, Limits, Trigger, frfs, inspect};
-use rotordyn_signal::record::{Axis, AxisQuantity, Kind, MeasuredData, Record, Values};
+use rotordyn_signal::impact::{Hit, Limits, Trigger, inspect};
 
 use crate::noise;
 
@@ -112,67 +111,4 @@ fn unusable_records_are_errors() {
     assert!(matches!(refuse(&[0.0; 4], &[1.0; 4]), SignalError::OutOfRange { name: "largest force", .. }));
     assert!(matches!(refuse(&[1.0; 4], &[1.0; 3]), SignalError::LengthMismatch { .. }));
     assert!(matches!(refuse(&[], &[]), SignalError::Empty { .. }));
-}
-
-/// Three hits of a hammer, and a response of two modes, with offsets of both channels.
-fn test_record(offsets: [f64; 2], rate: f64) -> MeasuredData {
-    let n = 12_000;
-    let mut force: Vec<f64> = noise(3, n).iter().map(|v| 0.001 * v + offsets[0]).collect();
-    let mut response = vec![offsets[1]; n];
-    for at in [1_000, 4_500, 8_000] {
-        strike(&mut force, at, 6, 100.0);
-        for (k, own) in response[at..].iter_mut().enumerate() {
-            let k = k as f64;
-            *own += (0.13 * k).sin() * (-k / 250.0).exp() + 2.0 * (0.7 * k).sin() * (-k / 100.0).exp();
-        }
-    }
-    let channel = |name: &str, values: Vec<f64>, unit: &str| {
-        let axis = Axis::uniform(AxisQuantity::Time, 0.0, 1.0 / rate);
-        Record::new(name, Kind::Time, axis, Values::Real(values), unit)
-    };
-    let records = vec![channel("hammer", force, "N"), channel("p1", response, "m/s^2")];
-    MeasuredData { records, ..MeasuredData::default() }
-}
-
-/// An offset of the force of 20 % of the hit, or one of the response with an exponential window, leaves the FRF as it is.
-#[test]
-fn offsets_of_the_channels_do_not_change_the_frf() {
-    let rate = 2048.0;
-    for time_constant in [None, Some(0.3)] {
-        let test = ImpactTest { block: Some(1.5), time_constant, ..ImpactTest::default() };
-        let frf = |offsets: [f64; 2]| {
-            let (records, _) = frfs(&[test_record(offsets, rate)], &test).unwrap();
-            let record = records.into_iter().find(|r| r.kind == Kind::Frf).unwrap();
-            record.frf().unwrap().to_vec()
-        };
-        let plain = frf([0.0, 0.0]);
-        let largest = plain.iter().skip(3).map(|h| h.norm()).fold(0.0, f64::max);
-        for offsets in [[20.0, 0.0], [-5.0, 0.0], [0.0, 30.0]] {
-            let off =
-                frf(offsets).iter().zip(&plain).skip(3).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
-            assert!(off < 2e-5 * largest, "{time_constant:?}, {offsets:?}: {off} of {largest}");
-        }
-    }
-}
-
-/// The amplitude of each mode at the end of a block is e^{−σT}: of an acceleration of which the high mode makes the peak
-/// the low one is still there.
-#[test]
-fn a_slow_low_mode_below_a_high_peak_is_truncated() {
-    let mut force = vec![0.0; 1_100];
-    strike(&mut force, 40, 6, 50.0);
-    let response = |slow: f64| -> Vec<f64> {
-        let mut values: Vec<f64> = noise(9, 1_100).iter().map(|v| 1e-3 * v).collect();
-        for (k, own) in values[40..].iter_mut().enumerate() {
-            let k = k as f64;
-            *own += 0.15 * (0.13 * k).sin() * (-k / slow).exp() + 2.0 * (0.9 * k).sin() * (-k / 60.0).exp();
-        }
-        values
-    };
-    let look =
-        |response: &[f64]| inspect(&Hit { force: &force, response }, &Limits::default(), None).unwrap();
-    let long = look(&response(1_300.0));
-    let left = (-1_055.0f64 / 1_300.0).exp();
-    assert!(long.truncated && (long.residual - left).abs() < 0.05, "{} not {left}", long.residual);
-    assert!(!look(&response(150.0)).truncated, "{:?}", look(&response(150.0)));
 }
