@@ -2348,9 +2348,9 @@ class Load(Part):
     ``time`` (time: one or more, increasing): Times of a load history, with straight lines between them; it is
         no part of the statics, a run starts without it. Without it: required, with factor. With factor = [0,
         1].
-    ``factor`` (number: as many as time): Factor of the load at these times; the first one holds from the
-        start of the run on, the last one to its end: 0 for a load that sets in later, or ends. Without it:
-        required, with time. With time = "0, 0.1 s".
+    ``factor`` (number: as many as time): Factor of the load at these times; the first holds from the start of
+        the run, the last to its end: 0 where there is no load. Without it: required, with time. With time =
+        "0, 0.1 s".
     ``band`` (frequency: two, increasing, zero or greater): Frequencies between which the spectrum of a random
         load is flat; force and moment are its RMS values.
     ``seed`` (whole number, from 0 to 999999999): Random course of a load with a band: the same for equal
