@@ -242,6 +242,12 @@ impl OrderTracker {
         })
     }
 
+    /// The cuts of 1x whose maximum the window lowers; other orders rise and fall by nature, as contacts and cages modulate
+    /// them.
+    pub fn smeared<'a>(&self, record: &AngleRecord, cuts: impl Iterator<Item = &'a OrderCut>) -> Vec<Smear> {
+        cuts.filter(|cut| cut.order == 1.0).filter_map(|cut| self.smear(record, cut)).collect()
+    }
+
     /// x e^{−jνθ} of every part.
     fn turned(&self, record: &AngleRecord, order: f64) -> Result<Vec<Vec<Complex<f64>>>, SignalError> {
         let inside = order > 0.0 && order <= self.settings.max_order;

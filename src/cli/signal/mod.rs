@@ -120,6 +120,8 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     let speeds = results.iter().filter_map(|result| record_speed::warning(result, settings.speed_range));
     speeds.for_each(|text| terminal.warn_of(Code::ShaftSpeedNotFound, text));
 
+    let smeared = results.iter().flat_map(orders::smear_warnings);
+    smeared.for_each(|text| terminal.warn_of(Code::OrderSmear, text));
     let shared = results.iter().flat_map(orders::one_band_warnings);
     shared.for_each(|text| terminal.warn_of(Code::OrdersInOneBand, text));
     let jitter = results.iter().flat_map(orders::jitter_warnings);

@@ -7,13 +7,11 @@ use rotordyn::signal::kurtogram::BandChoice;
 use rotordyn::signal::race_defects::DefectKind;
 use rotordyn::signal::ridge::find_hann_lines;
 use rotordyn::signal::spectrum::Spectrum;
-use rotordyn::warning::Code;
 
 use super::super::printed;
 use super::super::terminal::{Terminal, number};
 use super::input::File;
 use super::line_tables;
-use super::orders::smear_warnings;
 use super::record_speed;
 
 /// Largest number of rows of the channel list.
@@ -129,7 +127,6 @@ pub fn channel(terminal: &Terminal, result: &SignalResult) {
     }
     if let Some(orders) = &result.orders {
         cuts(terminal, result, orders);
-        smear_warnings(result).into_iter().for_each(|text| terminal.warn_of(Code::OrderSmear, text));
     }
     if let Some(average) = &result.average {
         synchronous_average(terminal, result, average);

@@ -30,7 +30,6 @@ pub mod signal;
 mod speed_cache;
 mod steady_motion;
 mod step_error;
-mod synchronous_orbit;
 mod torsional;
 pub mod trend;
 mod unbalance_comparison;

@@ -105,10 +105,7 @@ impl Machine {
                     Ok((line.clone(), cut))
                 };
                 let cuts = lines.iter().map(cut).collect::<Result<Vec<_>, SignalError>>()?;
-                // Other orders rise and fall by nature: contacts and cages modulate them.
-                let of_shaft = cuts.iter().filter(|(_, cut)| cut.order == 1.0);
-                let smeared = of_shaft.filter_map(|(_, cut)| tracker.smear(over_angle, cut));
-                spectrogram.smeared = smeared.collect();
+                spectrogram.smeared = tracker.smeared(over_angle, cuts.iter().map(|(_, cut)| cut));
                 let orders: Vec<f64> = lines.iter().map(|line| line.order).collect();
                 let tracks = study
                     .bandwidth

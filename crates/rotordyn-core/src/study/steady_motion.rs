@@ -6,7 +6,6 @@ use nalgebra::DVector;
 
 use super::milestone::Milestone;
 use super::settled_run::{Criteria, SettledRun, SettledSnapshot, SettledStart};
-use super::synchronous_orbit::synchronous_orbit;
 use super::{Machine, StudyError};
 use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::element::Anchor;
@@ -22,6 +21,7 @@ use crate::transient::steady::{SteadyRun, SteadySnapshot, SteadyStart, run_stead
 use crate::transient::system::State;
 use rotordyn_signal::lyapunov::lyapunov_exponent;
 use rotordyn_signal::motion_classification::classify_motion;
+use rotordyn_signal::orbit::FilteredOrbit;
 use rotordyn_signal::poincare::{StroboscopicSampling, cluster_points};
 use serde::{Deserialize, Serialize};
 
@@ -325,7 +325,7 @@ fn is_orbit(plane: &Plane) -> bool {
 
 /// Whirl direction of an orbit, and the 1x component of the whole record; `None` without motion or with less than one turn.
 fn whirl([x, y]: &[Vec<f64>; 2], record: [&Vec<f64>; 2], shaft_angle: &[f64]) -> Option<Whirl> {
-    let once = synchronous_orbit(record[0], record[1], shaft_angle)?;
+    let once = FilteredOrbit::fit_hann(record[0], record[1], shaft_angle, 1.0).ok()?;
     let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
     let (mx, my) = (mean(x), mean(y));
     let (mut net, mut all) = (0.0, 0.0);

@@ -63,9 +63,11 @@ fn check_materials(
     let items = top.items(table);
     for material in &model.materials {
         let Some((_, r)) = items.iter().find(|(name, _)| *name == material.name) else { continue };
-        let Some((what, expected)) = implausible_material(material) else { continue };
+        let Some(Implausible { of_density, what, expected }) = implausible_material(material) else {
+            continue;
+        };
         let message = format!("material.{}: {what}", material.name);
-        let key = if message.contains(": a density") { density } else { young };
+        let key = if of_density { density } else { young };
         let problem = Problem::new(Kind::OutOfRange, &r.span_of(key), message).expected(expected);
         let hint = "check the units of young and density; for a shaft of hardly any mass the answers are right, and this warning \
                     stays";
@@ -74,20 +76,29 @@ fn check_materials(
 }
 
 /// What is implausible of a material, and what is expected.
-fn implausible_material(material: &Material) -> Option<(String, String)> {
+struct Implausible {
+    /// Of its density alone; else of its modulus, alone or with the density.
+    of_density: bool,
+    what: String,
+    expected: String,
+}
+
+fn implausible_material(material: &Material) -> Option<Implausible> {
     let (young, density) = (material.young, material.density);
     let outside = |value: f64, [low, high]: [f64; 2]| value < low || value > high;
     if outside(young, MODULUS) {
         let what =
             format!("Young's modulus of {:.4} GPa is not that of an engineering material", young / 1e9);
-        return Some((what, "0.5 to 1500 GPa; steel has 210 GPa".into()));
+        let expected = "0.5 to 1500 GPa; steel has 210 GPa".into();
+        return Some(Implausible { of_density: false, what, expected });
     }
     if density == 0.0 {
         return None;
     }
     if outside(density, DENSITY) {
         let what = format!("a density of {density:.4} kg/m^3 is not that of an engineering material");
-        return Some((what, "300 to 23000 kg/m^3; steel has 7850 kg/m^3".into()));
+        let expected = "300 to 23000 kg/m^3; steel has 7850 kg/m^3".into();
+        return Some(Implausible { of_density: true, what, expected });
     }
     let (_, range) = SOUND.iter().find(|(up_to, _)| density < *up_to)?;
     let sound = (young / density).sqrt();
@@ -97,7 +108,12 @@ fn implausible_material(material: &Material) -> Option<(String, String)> {
             young / 1e9
         );
         let at = |sound: f64| 1e-9 * density * sound * sound;
-        (what, format!("{:.2} to {:.0} GPa at this density; steel has 210 GPa and 7850 kg/m^3", at(range[0]), at(range[1])))
+        let expected = format!(
+            "{:.2} to {:.0} GPa at this density; steel has 210 GPa and 7850 kg/m^3",
+            at(range[0]),
+            at(range[1])
+        );
+        Implausible { of_density: false, what, expected }
     })
 }
 

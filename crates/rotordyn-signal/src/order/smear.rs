@@ -51,7 +51,7 @@ impl Smear {
 const ENDS: f64 = 0.05;
 
 /// Whether a speed is passed: within the range of `rpm`, apart from its ends.
-pub fn is_passed(rpm: f64, all: &[f64]) -> bool {
+pub(crate) fn is_passed(rpm: f64, all: &[f64]) -> bool {
     let [low, high] = [f64::min, f64::max].map(|of: fn(f64, f64) -> f64| all.iter().copied().fold(rpm, of));
     let margin = ENDS * (high - low);
     rpm > low + margin && rpm < high - margin

@@ -71,9 +71,7 @@ impl Job<'_> {
             Ok((line, cut))
         };
         let cuts = lines.into_iter().map(cut).collect::<Result<Vec<_>, SignalError>>()?;
-        // Other orders rise and fall by nature: contacts and cages modulate them.
-        let of_shaft = cuts.iter().filter(|(_, cut)| cut.order == 1.0);
-        map.smeared = of_shaft.filter_map(|(_, cut)| tracker.smear(&records[0], cut)).collect();
+        map.smeared = tracker.smeared(&records[0], cuts.iter().map(|(_, cut)| cut));
         let jitter = self.shaft.and_then(|shaft| shaft.jitter);
         let leaks = tracks.as_ref().zip(jitter).map(|(found, jitter)| jitter.leaks(found, LEAK_SHARE));
         let mut leaks = leaks.unwrap_or_default();
