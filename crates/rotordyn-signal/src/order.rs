@@ -327,7 +327,7 @@ impl OrderSpectrogram {
 
     /// RMS of the line of an order against speed, √(Σ A_rms²/D) over the bins of the band `order` ± `half_band`.
     ///
-    /// D is the power of the line in these bins ([`Self::line_share`]): a line at the order has its level whatever the
+    /// D is the power of the line in these bins (`line_share`): a line at the order has its level whatever the
     /// window, the band and the place of the order between the bins. With Hann and three bins a line half a bin from the
     /// order reads up to 1 % low or high, one a bin from it 8 % low; white noise reads as √(bins/D) times that of one bin.
     /// Errors: no bin in the band.
