@@ -363,6 +363,6 @@ mod tests {
             coverage(&pulses(0.04, 6.0), &channel),
             "; they cover 5.040 to 11.00 s only of the record from 5.000 to 15.00 s, the rest is left out"
         );
-        assert!(coverage(&pulses(2.0, 9.99), &channel).contains("7 to 14.99 s only"));
+        assert!(coverage(&pulses(2.0, 9.99), &channel).contains("7.000 to 14.99 s only"));
     }
 }
