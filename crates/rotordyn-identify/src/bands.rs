@@ -148,7 +148,7 @@ pub(super) fn identify_bands(
 ) -> Result<ModalIdentification, IdentifyError> {
     let whole = Data::new(frfs, settings)?.frequencies;
     let mut all: Option<ModalIdentification> = None;
-    let (mut none, mut most) = (0, 0);
+    let (mut none, mut most, mut left_out) = (0, 0, String::new());
     for band in bands {
         let range = |[from, to]: [usize; 2]| [whole[from], whole[to]];
         // The neighbours of an inner end hold modes, whatever lies outside the record.
@@ -170,7 +170,8 @@ pub(super) fn identify_bands(
                     Some(below) => joined(below, part),
                 });
             }
-            Err(IdentifyError::NoMode { poles, orders, .. }) => {
+            Err(IdentifyError::NoMode { poles, orders, left_out: own, .. }) => {
+                left_out.push_str(&own);
                 none += poles;
                 most = most.max(orders);
             }
@@ -183,6 +184,7 @@ pub(super) fn identify_bands(
         to,
         poles: none,
         orders: most,
+        left_out,
     })?;
     finish(&mut all);
     Ok(all)

@@ -26,6 +26,8 @@ pub(super) struct Data {
     /// Whether the outputs are the references of the test.
     pub swapped: bool,
     pub residual_terms: ResidualTerms,
+    /// σ of an exponential window \[1/s\].
+    pub added_decay: f64,
     /// After a request fits return where they are; their result is not used.
     pub stop: StopRequest,
 }
@@ -87,7 +89,7 @@ impl Data {
                 let more = power - powers[response][reference];
                 let frf = &frfs.values[response][reference];
                 let own =
-                    lines.iter().map(|&k| frf[k] * Complex64::new(0.0, TAU * f[k]).powi(more)).collect();
+                    lines.iter().map(|&k| frf[k] * s_of(settings.added_decay, f[k]).powi(more)).collect();
                 row.push(own);
             }
             values.push(row);
@@ -101,6 +103,7 @@ impl Data {
             input_scale: vec![1.0; inputs],
             swapped,
             residual_terms: settings.residual_terms,
+            added_decay: settings.added_decay,
             stop: settings.stop.clone(),
         };
         data.check(frfs)?;
@@ -217,6 +220,11 @@ impl Data {
         self.frequencies.iter().map(|f| Complex64::new(0.0, TAU * f)).collect()
     }
 
+    /// (s + σ)^p of every line: a mobility or an accelerance from records with an exponential window e^{−σt} is that at s + σ.
+    pub fn factor(&self) -> Vec<Complex64> {
+        self.frequencies.iter().map(|f| s_of(self.added_decay, *f).powi(self.power)).collect()
+    }
+
     /// Divides outputs and inputs by scales a_o b_i that bring the given sizes of all FRFs near 1, which
     /// preserves rank-one residues; returns the b.
     ///
@@ -247,6 +255,11 @@ impl Data {
         self.input_scale.iter_mut().zip(&b).for_each(|(total, b)| *total *= b);
         b
     }
+}
+
+/// s + σ at a frequency \[Hz\].
+fn s_of(added_decay: f64, hz: f64) -> Complex64 {
+    Complex64::new(added_decay, TAU * hz)
 }
 
 /// Minimum model order that separates modes from noise.

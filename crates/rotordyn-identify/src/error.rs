@@ -30,9 +30,9 @@ pub enum IdentifyError {
     )]
     DeadReference { reference: String },
     #[error(
-        "no mode was found in {from:.3} .. {to:.3} Hz: of {poles} poles in {orders} orders none is stable; choose a band with a resonance, raise the order, or check the coherence"
+        "no mode was found in {from:.3} .. {to:.3} Hz: of {poles} poles in {orders} orders none is stable{left_out}; choose a band with a resonance, raise the order, or check the coherence"
     )]
-    NoMode { from: f64, to: f64, poles: usize, orders: usize },
+    NoMode { from: f64, to: f64, poles: usize, orders: usize, left_out: String },
     #[error(
         "the record of response {response} is NaN or infinite at {time:.6} s; leave the channel out, or choose a time range without it"
     )]

@@ -33,10 +33,11 @@ impl Residual {
 /// Basis functions of the fit. Rows: for each input the real, then the imaginary parts of all lines.
 pub(super) struct Basis {
     s: Vec<Complex64>,
-    /// s^p.
+    /// s^p, (s + σ)^p with an exponential window.
     factor: Vec<Complex64>,
     inputs: usize,
     residual_terms: ResidualTerms,
+    added_decay: f64,
 }
 
 /// Result of LSFD.
@@ -53,17 +54,17 @@ pub(super) struct Fit {
 impl Fit {
     /// FRFs of the modal model in the data's scales, `[output][input][line]`.
     pub fn synthesise(&self, data: &Data, poles: &[Pole]) -> Vec<Vec<Vec<Complex64>>> {
-        let s = data.s();
+        let (s, factor) = (data.s(), data.factor());
         let one = |o: usize, i: usize| {
-            let value = |s: &Complex64| {
-                let mut sum = self.upper[o][i] + self.lower[o][i] / (s * s);
+            let value = |(s, factor): (&Complex64, &Complex64)| {
+                let mut sum = self.upper[o][i] + self.lower[o][i] / (s + data.added_decay).powi(2);
                 for (pole, shape) in poles.iter().zip(&self.shapes) {
                     let residue = shape[o] * pole.participation[i];
                     sum += residue / (s - pole.value) + residue.conj() / (s - pole.value.conj());
                 }
-                sum * s.powi(data.power)
+                sum * factor
             };
-            s.iter().map(value).collect()
+            s.iter().zip(&factor).map(value).collect()
         };
         (0..data.outputs()).map(|o| (0..data.inputs()).map(|i| one(o, i)).collect()).collect()
     }
@@ -71,9 +72,14 @@ impl Fit {
 
 impl Basis {
     pub fn new(data: &Data) -> Self {
-        let s = data.s();
-        let factor = s.iter().map(|s| s.powi(data.power)).collect();
-        Self { s, factor, inputs: data.inputs(), residual_terms: data.residual_terms }
+        let (s, factor) = (data.s(), data.factor());
+        Self {
+            s,
+            factor,
+            inputs: data.inputs(),
+            residual_terms: data.residual_terms,
+            added_decay: data.added_decay,
+        }
     }
 
     pub fn rows(&self) -> usize {
@@ -122,7 +128,7 @@ impl Basis {
         let columns = (0..self.inputs).flat_map(|i| residuals.iter().map(move |residual| (i, residual)));
         for (column, (i, residual)) in (2 * modes..).zip(columns) {
             for (k, (s, factor)) in self.s.iter().zip(&self.factor).enumerate() {
-                let (top, value) = (2 * lines * i + k, residual.unit(*s, *factor));
+                let (top, value) = (2 * lines * i + k, residual.unit(*s + self.added_decay, *factor));
                 (a[(top, column)], a[(top + lines, column)]) = (value.re, value.im);
             }
         }

@@ -21,6 +21,9 @@ const MIN_COLLINEAR_POINTS: usize = 3;
 /// Whirl measure below which an orbit counts as a straight line.
 const STRAIGHT: f64 = 0.1;
 
+/// Scatter of the poles of most orders, relative to their size, up to which they are one pole that is left out for its damping.
+const LEFT_OUT_SCATTER: f64 = 0.05;
+
 /// Identifies the modes of prepared FRFs in one band.
 pub(super) fn identify_band(
     frfs: &FrfMatrix,
@@ -29,10 +32,11 @@ pub(super) fn identify_band(
 ) -> Result<ModalIdentification, IdentifyError> {
     let equations = NormalEquations::new(&data, settings)?;
     let orders: Vec<usize> = (LOWEST_ORDER..=data.max_order(settings)).collect();
-    let candidates = stabilisation::candidates(&data, equations.poles(&orders)?)?;
+    let (poles, too_damped) = split_by_damping(equations.poles(&orders)?, settings.largest_damping);
+    let candidates = stabilisation::candidates(&data, poles)?;
     let diagram = stabilisation::diagram(&candidates, &orders);
     let poles = pole_selection::select_poles(&data, &candidates, orders.len());
-    let mut dropped = Vec::new();
+    let mut dropped = poles_left_out(&too_damped, settings.largest_damping);
     let selected =
         if poles.is_empty() { None } else { select_modes(&mut data, poles, settings, &mut dropped) };
     IdentifyError::if_stopped(&settings.stop)?;
@@ -41,6 +45,7 @@ pub(super) fn identify_band(
         to: data.band()[1],
         poles: candidates.len(),
         orders: orders.len(),
+        left_out: left_out(&dropped),
     })?;
     // A pole may be dropped before and after the reweighting.
     let earlier = std::mem::take(&mut dropped);
@@ -49,6 +54,35 @@ pub(super) fn identify_band(
         dropped.push(pole);
     }
     Ok(assemble_result(frfs, settings, &data, found, diagram, orders, dropped))
+}
+
+/// The poles of every order up to a damping ratio, and those above.
+fn split_by_damping(poles: Vec<Vec<Pole>>, largest: f64) -> (Vec<Vec<Pole>>, Vec<Vec<Pole>>) {
+    poles.into_iter().map(|own| own.into_iter().partition(|pole| pole.damping_ratio() <= largest)).unzip()
+}
+
+/// Poles above the largest damping ratio that the orders share: their median where half of all orders have one.
+fn poles_left_out(poles: &[Vec<Pole>], largest: f64) -> Vec<DroppedPole> {
+    let value =
+        |own: &Vec<Pole>| own.iter().map(|pole| pole.value).min_by(|a, b| a.norm().total_cmp(&b.norm()));
+    let mut all: Vec<Complex64> = poles.iter().filter_map(value).collect();
+    if 2 * all.len() < poles.len() {
+        return Vec::new();
+    }
+    all.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+    let middle = all[all.len() / 2];
+    let near = all.iter().filter(|value| (*value - middle).norm() < LEFT_OUT_SCATTER * middle.norm()).count();
+    if 2 * near < poles.len() {
+        return Vec::new();
+    }
+    let reason = format!("damping above the limit of {:.0} %", 100.0 * largest);
+    vec![DroppedPole { value: middle, reason }]
+}
+
+/// What was left out, for an error.
+fn left_out(dropped: &[DroppedPole]) -> String {
+    let list: Vec<String> = dropped.iter().map(ToString::to_string).collect();
+    if list.is_empty() { String::new() } else { format!(" (left out: {})", list.join("; ")) }
 }
 
 fn assemble_result(

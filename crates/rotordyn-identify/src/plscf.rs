@@ -73,7 +73,6 @@ pub(super) struct NormalEquations {
     /// rad/s.
     shift: f64,
     band: [f64; 2],
-    largest_damping: f64,
     stop: StopRequest,
 }
 
@@ -153,12 +152,11 @@ impl NormalEquations {
             interval: 1.0 / (length as f64 * data.step),
             shift: TAU * data.step * first_line,
             band: data.band(),
-            largest_damping: settings.largest_damping,
             stop: settings.stop.clone(),
         })
     }
 
-    /// Poles of every requested order with a frequency in the band and a damping ratio in 0..largest.
+    /// Poles of every requested order with a frequency in the band and a positive damping ratio.
     pub fn poles(&self, orders: &[usize]) -> Result<Vec<Vec<Pole>>, IdentifyError> {
         let ni = self.inputs;
         let size = ni * self.order;
@@ -207,7 +205,7 @@ impl NormalEquations {
             let hz = value.im / TAU;
             let damping = damping_ratio(value);
             let inside = hz >= self.band[0] && hz <= self.band[1];
-            if unshifted.im <= 0.0 || !inside || damping <= 0.0 || damping > self.largest_damping {
+            if unshifted.im <= 0.0 || !inside || damping <= 0.0 {
                 continue;
             }
             let l: Vec<Complex64> = (0..ni).map(|i| vectors[(size - ni + i, k)]).collect();

@@ -65,7 +65,7 @@ impl Default for Settings {
             max_order: None,
             quantity: None,
             residual_terms: ResidualTerms::Both,
-            largest_damping: 0.2,
+            largest_damping: 0.5,
             added_decay: 0.0,
             stop: StopRequest::default(),
         }

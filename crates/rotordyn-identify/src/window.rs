@@ -25,13 +25,13 @@ impl Window {
         let band = [data.frequencies[first], data.frequencies[last]];
         let (inside, far): (Vec<usize>, Vec<usize>) =
             (0..poles.len()).partition(|&k| poles[k].is_inside(band));
-        let s = data.s();
+        let (s, factor) = (data.s(), data.factor());
         let others = |o: usize, i: usize, k: usize| -> Complex64 {
             let of = |&r: &usize| {
                 let (value, residue) = (poles[r].value, fit.shapes[r][o] * poles[r].participation[i]);
                 residue / (s[k] - value) + residue.conj() / (s[k] - value.conj())
             };
-            far.iter().map(of).sum::<Complex64>() * s[k].powi(data.power)
+            far.iter().map(of).sum::<Complex64>() * factor[k]
         };
         let near = inside.iter().map(|&k| poles[k].clone()).collect();
         let mut data = data.window(first..=last, others);

@@ -62,6 +62,7 @@ pub fn identify_operational(
             to: found.band[1],
             poles,
             orders: found.orders.len(),
+            left_out: String::new(),
         });
     }
     Ok(found)

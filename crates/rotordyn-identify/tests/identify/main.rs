@@ -2,7 +2,9 @@
 
 mod drift;
 mod exact;
+mod exponential_window;
 mod full_band;
+mod heavy_damping;
 mod known_modes;
 mod model_error;
 mod noise;

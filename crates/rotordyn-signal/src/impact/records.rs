@@ -36,7 +36,7 @@ const AFTER: f64 = 0.01;
 ///
 /// `files` have the same channels at the same points: their hits are averaged. Double hits and hits with force
 /// overload are rejected, hits with response overload only for that response. After the contact the force is set
-/// to zero (force window).
+/// to zero (force window). The offset of the force, what it reads before the hits, is removed.
 ///
 /// # Errors
 /// No force, records of different rates or lengths, no usable hit, NaN.
@@ -100,7 +100,8 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
         }
         let after = (AFTER * rate).round() as usize;
         let windows = ImpactWindows { force_length: Some(2 * contact + after), ..windows };
-        let estimate = frf_from_hits(&good, rate, windows)?;
+        let hits: Vec<Hit> = good.iter().map(OwnHit::as_hit).collect();
+        let estimate = frf_from_hits(&hits, rate, windows)?;
         out.extend(records(force, response, number, estimate, good.len(), test.estimator));
     }
     if out.is_empty() {
@@ -116,10 +117,47 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
     Ok((out, warnings))
 }
 
+/// A hit with the force without its offset.
+struct OwnHit<'a> {
+    force: Vec<f64>,
+    response: &'a [f64],
+}
+
+impl OwnHit<'_> {
+    fn as_hit(&self) -> Hit<'_> {
+        Hit { force: &self.force, response: self.response }
+    }
+}
+
+/// Time before a block \[s\] in which the force rests, and the least number of samples there.
+const QUIET: f64 = 0.2;
+const MIN_QUIET: usize = 16;
+
+/// Median of a force at rest over its standard error, from which it is an offset.
+const MIN_OFFSET: f64 = 6.0;
+
+/// Offset of a force at rest; 0 if noise may have made it.
+fn force_offset(quiet: &[f64]) -> f64 {
+    let middle = median(quiet.to_vec());
+    let deviation = 1.4826 * median(quiet.iter().map(|v| (v - middle).abs()).collect());
+    // Standard error of a median of normal deviates.
+    let error = 1.2533 * deviation / (quiet.len().max(1) as f64).sqrt();
+    if middle.abs() > MIN_OFFSET * error { middle } else { 0.0 }
+}
+
+/// The force of a block without its offset, what it reads before the block; that of the record if it begins there.
+///
+/// The force window keeps an offset over its length only: the force would have another spectrum.
+fn without_offset(force: &[f64], block: &Range<usize>, rate: f64) -> Vec<f64> {
+    let quiet = block.start.saturating_sub((QUIET * rate).round() as usize)..block.start;
+    let offset = force_offset(if quiet.len() < MIN_QUIET { force } else { &force[quiet] });
+    force[block.clone()].iter().map(|v| v - offset).collect()
+}
+
 /// The hits of one response.
 #[derive(Default)]
 struct HitSet<'a> {
-    good: Vec<Hit<'a>>,
+    good: Vec<OwnHit<'a>>,
     inspected: Vec<Inspected<'a>>,
     /// Samples of a block up to the end of the longest contact.
     contact: usize,
@@ -145,8 +183,9 @@ fn inspect_all<'a>(
         finite(own)?;
         let (samples, values) = (force.time_samples()?, own.time_samples()?);
         for block in blocks {
-            let hit = Hit { force: &samples[block.clone()], response: &values[block.clone()] };
-            let quality = inspect(&hit, &Limits::default(), Some(window))?;
+            let own_force = without_offset(samples, block, rate);
+            let hit = OwnHit { force: own_force, response: &values[block.clone()] };
+            let quality = inspect(&hit.as_hit(), &Limits::default(), Some(window))?;
             if quality.is_good() {
                 out.contact = out.contact.max(quality.contact.end);
                 out.residual = out.residual.max(if quality.truncated { quality.residual } else { 0.0 });
@@ -252,6 +291,8 @@ fn blocks(
     warnings: &mut Vec<String>,
 ) -> Result<Vec<Range<usize>>, RecordError> {
     let force = record.time_samples()?;
+    let offset = force_offset(force);
+    let force: &[f64] = &force.iter().map(|f| f - offset).collect::<Vec<_>>();
     let samples = |seconds: f64| (seconds * rate).round().max(1.0) as usize;
     let largest = force.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
     let usual_size = median(force.iter().map(|f| f.abs()).collect());
