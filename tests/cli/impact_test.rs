@@ -383,9 +383,9 @@ fn simulated_impact_test() {
                 100.0 * damping
             );
             assert!(off(&near) < 1e-3, "{hz} Hz for {}", near.im / TAU);
-            // The mode at 44.97 Hz, which the hit hardly moves, states an error of 8 % (and is off by -14 to +4 % with
-            // windows of 0.25 to 1 s); all others are known better than 3 %.
-            let weak = (hz - 44.97).abs() < 0.1;
+            // The hit hardly moves the mode at 44.97 Hz: with the window it states an error of 8 % (and is off by -14 to
+            // +4 % with windows of 0.25 to 1 s); all others are known better than 3 %.
+            let weak = window.is_some() && (hz - 44.97).abs() < 0.1;
             let allowed = if weak { 0.03_f64.max(error / zeta) } else { 0.03 };
             assert!(damping.abs() < allowed, "{hz} Hz: damping off by {damping}, error {}", error / zeta);
         }

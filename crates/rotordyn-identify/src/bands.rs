@@ -5,10 +5,13 @@
 //! valley before the peak that would be one too many or too high over the band's first. Every band is fitted with the next
 //! peak on either side, which is a mode of its neighbour.
 
+use std::f64::consts::TAU;
+
 use super::data::{Data, highest_order, noise_rms};
 use super::one_band::identify_band;
 use super::result::{ModalIdentification, fit_error, total_error};
 use super::{IdentifyError, Settings};
+use rotordyn_linalg::Complex64;
 use rotordyn_signal::record::FrfMatrix;
 
 /// A record is split if its highest frequency is this many times its lowest peak, or if it has more peaks.
@@ -148,7 +151,7 @@ pub(super) fn identify_bands(
 ) -> Result<ModalIdentification, IdentifyError> {
     let whole = Data::new(frfs, settings)?.frequencies;
     let mut all: Option<ModalIdentification> = None;
-    let (mut none, mut most, mut left_out) = (0, 0, String::new());
+    let (mut none, mut most, mut dropped) = (0, 0, Vec::new());
     for band in bands {
         let range = |[from, to]: [usize; 2]| [whole[from], whole[to]];
         // The neighbours of an inner end hold modes, whatever lies outside the record.
@@ -170,8 +173,9 @@ pub(super) fn identify_bands(
                     Some(below) => joined(below, part),
                 });
             }
-            Err(IdentifyError::NoMode { poles, orders, left_out: own, .. }) => {
-                left_out.push_str(&own);
+            Err(IdentifyError::NoMode { poles, orders, dropped: own, .. }) => {
+                let inside = core_of(range(band.core), whole[1] - whole[0]);
+                dropped.extend(own.into_iter().filter(|pole| inside(&pole.value)));
                 none += poles;
                 most = most.max(orders);
             }
@@ -184,21 +188,29 @@ pub(super) fn identify_bands(
         to,
         poles: none,
         orders: most,
-        left_out,
+        dropped,
     })?;
     finish(&mut all);
     Ok(all)
 }
 
+/// Whether the frequency of a pole lies between two lines, those included, of a record with such a step \[Hz\].
+fn core_of([from, to]: [f64; 2], step: f64) -> impl Fn(&Complex64) -> bool {
+    move |pole| is_within(pole.im / TAU, [from, to], step)
+}
+
+fn is_within(hz: f64, [from, to]: [f64; 2], step: f64) -> bool {
+    hz > from - 0.5 * step && hz <= to + 0.5 * step
+}
+
 /// The part of a result that lies between two lines.
 fn only_core(mut found: ModalIdentification, [from, to]: [f64; 2]) -> ModalIdentification {
-    let half = 0.5 * (found.frequencies[1] - found.frequencies[0]);
-    let inside = |hz: f64| hz > from - half && hz <= to + half;
-    let place = |value: &rotordyn_linalg::Complex64| inside(value.im / std::f64::consts::TAU);
-    found.modes.retain(|m| place(&m.pole));
-    found.diagram.retain(|p| place(&p.value));
-    found.dropped.retain(|p| place(&p.value));
-    let lines: Vec<bool> = found.frequencies.iter().map(|hz| inside(*hz)).collect();
+    let step = found.frequencies[1] - found.frequencies[0];
+    let inside = core_of([from, to], step);
+    found.modes.retain(|m| inside(&m.pole));
+    found.diagram.retain(|p| inside(&p.value));
+    found.dropped.retain(|p| inside(&p.value));
+    let lines: Vec<bool> = found.frequencies.iter().map(|hz| is_within(*hz, [from, to], step)).collect();
     for frf in found.measured.iter_mut().chain(&mut found.synthesised).flatten() {
         let mut line = lines.iter();
         frf.retain(|_| line.next().is_some_and(|inside| *inside));

@@ -89,7 +89,7 @@ impl Data {
                 let more = power - powers[response][reference];
                 let frf = &frfs.values[response][reference];
                 let own =
-                    lines.iter().map(|&k| frf[k] * s_of(settings.added_decay, f[k]).powi(more)).collect();
+                    lines.iter().map(|&k| frf[k] * windowed_s(settings.added_decay, f[k]).powi(more)).collect();
                 row.push(own);
             }
             values.push(row);
@@ -222,7 +222,7 @@ impl Data {
 
     /// (s + σ)^p of every line: a mobility or an accelerance from records with an exponential window e^{−σt} is that at s + σ.
     pub fn factor(&self) -> Vec<Complex64> {
-        self.frequencies.iter().map(|f| s_of(self.added_decay, *f).powi(self.power)).collect()
+        self.frequencies.iter().map(|f| windowed_s(self.added_decay, *f).powi(self.power)).collect()
     }
 
     /// Divides outputs and inputs by scales a_o b_i that bring the given sizes of all FRFs near 1, which
@@ -258,7 +258,7 @@ impl Data {
 }
 
 /// s + σ at a frequency \[Hz\].
-fn s_of(added_decay: f64, hz: f64) -> Complex64 {
+fn windowed_s(added_decay: f64, hz: f64) -> Complex64 {
     Complex64::new(added_decay, TAU * hz)
 }
 

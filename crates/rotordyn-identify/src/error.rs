@@ -1,5 +1,6 @@
 //! Errors of modal identification: what is wrong, and what to do.
 
+use super::DroppedPole;
 use rotordyn_linalg::StopRequest;
 
 /// FRFs or settings from which no modes can be identified.
@@ -30,9 +31,10 @@ pub enum IdentifyError {
     )]
     DeadReference { reference: String },
     #[error(
-        "no mode was found in {from:.3} .. {to:.3} Hz: of {poles} poles in {orders} orders none is stable{left_out}; choose a band with a resonance, raise the order, or check the coherence"
+        "no mode was found in {from:.3} .. {to:.3} Hz: of {poles} poles in {orders} orders none is stable{}; choose a band with a resonance, raise the order, or check the coherence",
+        left_out(dropped)
     )]
-    NoMode { from: f64, to: f64, poles: usize, orders: usize, left_out: String },
+    NoMode { from: f64, to: f64, poles: usize, orders: usize, dropped: Vec<DroppedPole> },
     #[error(
         "the record of response {response} is NaN or infinite at {time:.6} s; leave the channel out, or choose a time range without it"
     )]
@@ -54,4 +56,10 @@ impl IdentifyError {
     pub(crate) fn if_stopped(stop: &StopRequest) -> Result<(), Self> {
         if stop.is_requested() { Err(Self::Stopped) } else { Ok(()) }
     }
+}
+
+/// What was left out, in parentheses; nothing if no pole was.
+fn left_out(dropped: &[DroppedPole]) -> String {
+    let list: Vec<String> = dropped.iter().map(ToString::to_string).collect();
+    if list.is_empty() { String::new() } else { format!(" (left out: {})", list.join("; ")) }
 }

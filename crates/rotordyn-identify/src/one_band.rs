@@ -40,13 +40,10 @@ pub(super) fn identify_band(
     let selected =
         if poles.is_empty() { None } else { select_modes(&mut data, poles, settings, &mut dropped) };
     IdentifyError::if_stopped(&settings.stop)?;
-    let found = selected.ok_or(IdentifyError::NoMode {
-        from: data.band()[0],
-        to: data.band()[1],
-        poles: candidates.len(),
-        orders: orders.len(),
-        left_out: left_out(&dropped),
-    })?;
+    let Some(found) = selected else {
+        let ([from, to], poles, orders) = (data.band(), candidates.len(), orders.len());
+        return Err(IdentifyError::NoMode { from, to, poles, orders, dropped });
+    };
     // A pole may be dropped before and after the reweighting.
     let earlier = std::mem::take(&mut dropped);
     for pole in earlier {
@@ -61,28 +58,28 @@ fn split_by_damping(poles: Vec<Vec<Pole>>, largest: f64) -> (Vec<Vec<Pole>>, Vec
     poles.into_iter().map(|own| own.into_iter().partition(|pole| pole.damping_ratio() <= largest)).unzip()
 }
 
-/// Poles above the largest damping ratio that the orders share: their median where half of all orders have one.
-fn poles_left_out(poles: &[Vec<Pole>], largest: f64) -> Vec<DroppedPole> {
-    let value =
-        |own: &Vec<Pole>| own.iter().map(|pole| pole.value).min_by(|a, b| a.norm().total_cmp(&b.norm()));
-    let mut all: Vec<Complex64> = poles.iter().filter_map(value).collect();
-    if 2 * all.len() < poles.len() {
-        return Vec::new();
+/// Poles above the largest damping ratio that half of the orders or more share, from below.
+fn poles_left_out(orders: &[Vec<Pole>], largest: f64) -> Vec<DroppedPole> {
+    let near = |a: Complex64, b: Complex64| (a - b).norm() < LEFT_OUT_SCATTER * b.norm();
+    let shared_by = |value: Complex64, orders: &[Vec<Complex64>]| {
+        orders.iter().filter(|own| own.iter().any(|other| near(*other, value))).count()
+    };
+    let mut left: Vec<Vec<Complex64>> =
+        orders.iter().map(|own| own.iter().map(|pole| pole.value).collect()).collect();
+    let mut out = Vec::new();
+    // The pole that most orders share; then the next, without those that are near it.
+    while let Some((count, value)) =
+        left.iter().flatten().map(|value| (shared_by(*value, &left), *value)).max_by_key(|(count, _)| *count)
+    {
+        if 2 * count < orders.len() {
+            break;
+        }
+        let reason = format!("damping above the limit of {:.0} %", 100.0 * largest);
+        out.push(DroppedPole { value, reason });
+        left.iter_mut().for_each(|own| own.retain(|other| !near(*other, value)));
     }
-    all.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
-    let middle = all[all.len() / 2];
-    let near = all.iter().filter(|value| (*value - middle).norm() < LEFT_OUT_SCATTER * middle.norm()).count();
-    if 2 * near < poles.len() {
-        return Vec::new();
-    }
-    let reason = format!("damping above the limit of {:.0} %", 100.0 * largest);
-    vec![DroppedPole { value: middle, reason }]
-}
-
-/// What was left out, for an error.
-fn left_out(dropped: &[DroppedPole]) -> String {
-    let list: Vec<String> = dropped.iter().map(ToString::to_string).collect();
-    if list.is_empty() { String::new() } else { format!(" (left out: {})", list.join("; ")) }
+    out.sort_by(|a, b| a.value.im.total_cmp(&b.value.im));
+    out
 }
 
 fn assemble_result(

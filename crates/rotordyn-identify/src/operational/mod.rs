@@ -62,7 +62,7 @@ pub fn identify_operational(
             to: found.band[1],
             poles,
             orders: found.orders.len(),
-            left_out: String::new(),
+            dropped: Vec::new(),
         });
     }
     Ok(found)

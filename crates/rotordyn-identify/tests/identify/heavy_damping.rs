@@ -1,6 +1,6 @@
 //! Heavily damped modes: found, or named where they are left out for their damping.
 
-use rotordyn_identify::{Settings, identify};
+use rotordyn_identify::{IdentifyError, Settings, identify};
 use rotordyn_signal::record::MeasurementNoise;
 
 use crate::known_modes::{KnownMode, frfs, lines};
@@ -37,4 +37,25 @@ fn a_mode_above_the_limit_is_named() {
     let made = frfs(&modes(0.25)[..1], &lines(2.0, 300.0, 0.25), 0);
     let error = identify(&made, &settings).unwrap_err().to_string();
     assert!(error.contains("damping above the limit of 20 %"), "{error}");
+}
+
+/// A record of more than a decade and a half is identified in bands: each names its own poles, once.
+#[test]
+fn bands_of_a_wide_record_name_what_they_leave_out() {
+    let shape = [[0.9, -0.4, 0.7, 0.3], [0.5, 0.8, -0.6, 0.4], [0.2, 0.7, 0.9, -0.5]];
+    let known: Vec<KnownMode> =
+        [4.0, 60.0, 280.0].iter().zip(&shape).map(|(hz, of)| KnownMode::real(*hz, 0.02, of, &[0, 2])).collect();
+    let made = frfs(&known, &lines(1.0, 400.0, 0.125), 0);
+    let settings = Settings { largest_damping: 0.01, ..Settings::default() };
+    let IdentifyError::NoMode { dropped, .. } = identify(&made, &settings).unwrap_err() else {
+        panic!("another error")
+    };
+    let named = dropped.iter().filter(|pole| pole.reason.contains("damping above the limit of 1 %"));
+    let found: Vec<f64> = named.map(|pole| pole.value.norm() / std::f64::consts::TAU).collect();
+    assert_eq!(found.len(), 3, "{dropped:?}");
+    for (found, known) in found.iter().zip([4.0, 60.0, 280.0]) {
+        assert!((found / known - 1.0).abs() < 1e-3, "{found} Hz for {known}");
+    }
+    let error = identify(&made, &settings).unwrap_err().to_string();
+    assert_eq!(error.matches("left out").count(), 1, "{error}");
 }
