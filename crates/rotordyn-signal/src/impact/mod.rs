@@ -7,6 +7,7 @@
 //! | [`frf`] | force and exponential window; H1, H2, Hv and coherence from hits or random excitation |
 //! | [`records`] | from time records to averaged FRFs, without unusable hits |
 
+mod decay;
 pub mod frf;
 pub mod quality;
 pub mod records;

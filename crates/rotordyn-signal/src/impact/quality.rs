@@ -1,5 +1,6 @@
 //! Quality of a hit: double hit, overload, truncated response.
 
+use super::decay::left_at_end;
 use super::{Hit, peak};
 use crate::SignalError;
 use crate::error::{check, check_record, check_same_length};
@@ -12,7 +13,7 @@ pub struct Limits {
     pub double_hit: f64,
     /// Full scale of the force and response channels; `None`: only flat tops are detected.
     pub full_scale: [Option<f64>; 2],
-    /// Largest residual response at the end of the block, as a fraction of its peak, after windows.
+    /// Largest residual response at the end of the block, as a fraction of its peak and of each strong frequency, after windows.
     pub residual: f64,
 }
 
@@ -33,7 +34,8 @@ pub struct HitQuality {
     pub double_hit: Option<usize>,
     /// Sample at which force or response is beyond its range.
     pub overload: [Option<usize>; 2],
-    /// RMS of the last twentieth of the response over its peak; 0 for a zero response.
+    /// RMS of the last twentieth of the response over its peak, or the amplitude at the end over that after the hit of a strong
+    /// frequency, if larger; 0 for a zero response.
     pub residual: f64,
     /// Whether the residual exceeds the limit: a longer block or an exponential window is needed.
     pub truncated: bool,
@@ -58,7 +60,7 @@ impl HitQuality {
         }
         if self.truncated {
             faults.push(format!(
-                "the response is truncated at {:.0} % of its peak: take longer blocks or an exponential window",
+                "the response is truncated, {:.0} % of it is left: take longer blocks or an exponential window",
                 100.0 * self.residual
             ));
         }
@@ -94,7 +96,8 @@ pub fn inspect(
     let last = hit.response.len() - (hit.response.len() / 20).max(1);
     let tail = (last..hit.response.len()).map(|n| (weight(n) * hit.response[n]).powi(2));
     let tail = (tail.sum::<f64>() / (hit.response.len() - last) as f64).sqrt();
-    let residual = if response_peak > 0.0 { tail / response_peak } else { 0.0 };
+    let after: Vec<f64> = (end..hit.response.len()).map(|n| weight(n) * hit.response[n]).collect();
+    let residual = if response_peak > 0.0 { (tail / response_peak).max(left_at_end(&after)) } else { 0.0 };
     Ok(HitQuality {
         peak: (at, hit.force[at]),
         contact: start..end,

@@ -36,7 +36,7 @@ const AFTER: f64 = 0.01;
 ///
 /// `files` have the same channels at the same points: their hits are averaged. Double hits and hits with force
 /// overload are rejected, hits with response overload only for that response. After the contact the force is set
-/// to zero (force window). The offset of the force, what it reads before the hits, is removed.
+/// to zero (force window). Offsets of the channels, what they read before the hits, are removed.
 ///
 /// # Errors
 /// No force, records of different rates or lengths, no usable hit, NaN.
@@ -92,7 +92,7 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
         }
         if residual > 0.0 {
             warnings.push(format!(
-                "`{}` is truncated: {:.0} % of its peak is left at the end of a block; take longer blocks (--block), or \
+                "`{}` is truncated: {:.0} % of its motion is left at the end of a block; take longer blocks (--block), or \
                  an exponential window (--exponential-window)",
                 response.name,
                 100.0 * residual
@@ -117,47 +117,65 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
     Ok((out, warnings))
 }
 
-/// A hit with the force without its offset.
-struct OwnHit<'a> {
+/// A hit without the offsets of its channels.
+struct OwnHit {
     force: Vec<f64>,
-    response: &'a [f64],
+    response: Vec<f64>,
 }
 
-impl OwnHit<'_> {
+impl OwnHit {
     fn as_hit(&self) -> Hit<'_> {
-        Hit { force: &self.force, response: self.response }
+        Hit { force: &self.force, response: &self.response }
     }
 }
 
-/// Time before a block \[s\] in which the force rests, and the least number of samples there.
+/// Time before a block \[s\] in which a channel rests, and the least number of samples there.
 const QUIET: f64 = 0.2;
 const MIN_QUIET: usize = 16;
 
-/// Median of a force at rest over its standard error, from which it is an offset.
-const MIN_OFFSET: f64 = 6.0;
+/// Offset of a force over its standard error, and of a response over the deviation of its motion, from which it is one.
+const OF_FORCE: f64 = 6.0;
+const OF_RESPONSE: f64 = 3.0;
+
+/// Median of samples at rest, and the deviation about it.
+fn rest(quiet: &[f64]) -> [f64; 2] {
+    let middle = median(quiet.to_vec());
+    [middle, 1.4826 * median(quiet.iter().map(|v| (v - middle).abs()).collect())]
+}
 
 /// Offset of a force at rest; 0 if noise may have made it.
 fn force_offset(quiet: &[f64]) -> f64 {
-    let middle = median(quiet.to_vec());
-    let deviation = 1.4826 * median(quiet.iter().map(|v| (v - middle).abs()).collect());
+    let [middle, deviation] = rest(quiet);
     // Standard error of a median of normal deviates.
     let error = 1.2533 * deviation / (quiet.len().max(1) as f64).sqrt();
-    if middle.abs() > MIN_OFFSET * error { middle } else { 0.0 }
+    if middle.abs() > OF_FORCE * error { middle } else { 0.0 }
 }
 
-/// The force of a block without its offset, what it reads before the block; that of the record if it begins there.
+/// Offset of a response; 0 if it may be of the motion that the hit before has left.
+fn response_offset(quiet: &[f64]) -> f64 {
+    let [middle, deviation] = rest(quiet);
+    if middle.abs() > OF_RESPONSE * deviation { middle } else { 0.0 }
+}
+
+/// A block without the offset of its channel, what it reads before the block; that of the record if it begins there.
 ///
-/// The force window keeps an offset over its length only: the force would have another spectrum.
-fn without_offset(force: &[f64], block: &Range<usize>, rate: f64) -> Vec<f64> {
+/// The force window keeps an offset over its length only: the force would have another spectrum. An exponential window turns
+/// that of a response into a decay.
+fn without_offset(
+    samples: &[f64],
+    block: &Range<usize>,
+    rate: f64,
+    offset: impl Fn(&[f64]) -> f64,
+) -> Vec<f64> {
     let quiet = block.start.saturating_sub((QUIET * rate).round() as usize)..block.start;
-    let offset = force_offset(if quiet.len() < MIN_QUIET { force } else { &force[quiet] });
-    force[block.clone()].iter().map(|v| v - offset).collect()
+    let offset = offset(if quiet.len() < MIN_QUIET { samples } else { &samples[quiet] });
+    samples[block.clone()].iter().map(|v| v - offset).collect()
 }
 
 /// The hits of one response.
 #[derive(Default)]
 struct HitSet<'a> {
-    good: Vec<OwnHit<'a>>,
+    good: Vec<OwnHit>,
     inspected: Vec<Inspected<'a>>,
     /// Samples of a block up to the end of the longest contact.
     contact: usize,
@@ -183,8 +201,10 @@ fn inspect_all<'a>(
         finite(own)?;
         let (samples, values) = (force.time_samples()?, own.time_samples()?);
         for block in blocks {
-            let own_force = without_offset(samples, block, rate);
-            let hit = OwnHit { force: own_force, response: &values[block.clone()] };
+            let hit = OwnHit {
+                force: without_offset(samples, block, rate, force_offset),
+                response: without_offset(values, block, rate, response_offset),
+            };
             let quality = inspect(&hit.as_hit(), &Limits::default(), Some(window))?;
             if quality.is_good() {
                 out.contact = out.contact.max(quality.contact.end);

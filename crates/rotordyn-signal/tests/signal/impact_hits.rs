@@ -114,11 +114,11 @@ fn unusable_records_are_errors() {
     assert!(matches!(refuse(&[], &[]), SignalError::Empty { .. }));
 }
 
-/// Three hits of a hammer with an offset of the force, and a response of two modes.
-fn test_record(offset: f64, rate: f64) -> MeasuredData {
+/// Three hits of a hammer, and a response of two modes, with offsets of both channels.
+fn test_record(offsets: [f64; 2], rate: f64) -> MeasuredData {
     let n = 12_000;
-    let mut force: Vec<f64> = noise(3, n).iter().map(|v| 0.001 * v + offset).collect();
-    let mut response = vec![0.0; n];
+    let mut force: Vec<f64> = noise(3, n).iter().map(|v| 0.001 * v + offsets[0]).collect();
+    let mut response = vec![offsets[1]; n];
     for at in [1_000, 4_500, 8_000] {
         strike(&mut force, at, 6, 100.0);
         for (k, own) in response[at..].iter_mut().enumerate() {
@@ -134,23 +134,47 @@ fn test_record(offset: f64, rate: f64) -> MeasuredData {
     MeasuredData { records, ..MeasuredData::default() }
 }
 
-/// An offset of the force of up to 20 % of the hit leaves the FRF as it is.
+/// An offset of the force of 20 % of the hit, or one of the response with an exponential window, leaves the FRF as it is.
 #[test]
-fn an_offset_of_the_force_does_not_change_the_frf() {
+fn offsets_of_the_channels_do_not_change_the_frf() {
+    let rate = 2048.0;
     for time_constant in [None, Some(0.3)] {
         let test = ImpactTest { block: Some(1.5), time_constant, ..ImpactTest::default() };
-        let frf = |offset: f64| {
-            let (records, _) = frfs(&[test_record(offset, 2048.0)], &test).unwrap();
+        let frf = |offsets: [f64; 2]| {
+            let (records, _) = frfs(&[test_record(offsets, rate)], &test).unwrap();
             let record = records.into_iter().find(|r| r.kind == Kind::Frf).unwrap();
             record.frf().unwrap().to_vec()
         };
-        let plain = frf(0.0);
-        let largest = plain.iter().map(|h| h.norm()).fold(0.0, f64::max);
-        for offset in [-5.0, 20.0] {
-            let off = frf(offset).iter().zip(&plain).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        let plain = frf([0.0, 0.0]);
+        let largest = plain.iter().skip(3).map(|h| h.norm()).fold(0.0, f64::max);
+        for offsets in [[20.0, 0.0], [-5.0, 0.0], [0.0, 30.0]] {
+            let off =
+                frf(offsets).iter().zip(&plain).skip(3).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
             // The noise of the force leaves the offset uncertain; not removed, -5 N change the FRF by as much as it is,
             // and with 20 N no hit is found.
-            assert!(off < 2e-4 * largest, "{time_constant:?}, {offset}: {off} of {largest}");
+            assert!(off < 2e-4 * largest, "{time_constant:?}, {offsets:?}: {off} of {largest}");
         }
     }
+}
+
+/// The amplitude of each mode at the end of a block is e^{−σT}: of an acceleration of which the high mode makes the peak
+/// the low one is still there.
+#[test]
+fn a_slow_low_mode_below_a_high_peak_is_truncated() {
+    let mut force = vec![0.0; 1_100];
+    strike(&mut force, 40, 6, 50.0);
+    let response = |slow: f64| -> Vec<f64> {
+        let mut values: Vec<f64> = noise(9, 1_100).iter().map(|v| 1e-3 * v).collect();
+        for (k, own) in values[40..].iter_mut().enumerate() {
+            let k = k as f64;
+            *own += 0.15 * (0.13 * k).sin() * (-k / slow).exp() + 2.0 * (0.9 * k).sin() * (-k / 60.0).exp();
+        }
+        values
+    };
+    let look =
+        |response: &[f64]| inspect(&Hit { force: &force, response }, &Limits::default(), None).unwrap();
+    let long = look(&response(1_300.0));
+    let left = (-1_055.0f64 / 1_300.0).exp();
+    assert!(long.truncated && (long.residual - left).abs() < 0.05, "{} not {left}", long.residual);
+    assert!(!look(&response(150.0)).truncated, "{:?}", look(&response(150.0)));
 }
