@@ -88,8 +88,10 @@ impl Data {
                 let (response, reference) = if swapped { (i, o) } else { (o, i) };
                 let more = power - powers[response][reference];
                 let frf = &frfs.values[response][reference];
-                let own =
-                    lines.iter().map(|&k| frf[k] * windowed_s(settings.added_decay, f[k]).powi(more)).collect();
+                let own = lines
+                    .iter()
+                    .map(|&k| frf[k] * windowed_s(settings.added_decay, f[k]).powi(more))
+                    .collect();
                 row.push(own);
             }
             values.push(row);

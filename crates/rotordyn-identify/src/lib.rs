@@ -11,8 +11,9 @@
 //! | `reweight` | weights of the FRFs by noise and misfit |
 //! | `outside` | modes just outside the band, which act in it |
 //! | `pairs` | modes that two close modes fit better: found, or marked |
+//! | `two_modes` | two close poles: two modes, or one mode that differs between the FRFs |
 //! | `window`, `principal_outputs` | FRFs in a part of the band, on few directions, for cheap fits |
-//! | `uncertainty`, `misfit` | standard errors of poles: noise (jackknife) and error of the modal model |
+//! | `uncertainty`, `misfit`, `nonlinearity` | standard errors of poles: noise (jackknife) and error of the modal model |
 //! | `one_band`, `bands` | modes of one band; a record that holds too much for one is split |
 //! | [`mac`](mod@mac) | MAC, FRAC, FDAC, phase collinearity |
 //! | [`sdof`] | single-degree-of-freedom (SDOF) circle and peak fit of one mode |
@@ -31,6 +32,7 @@ mod lsfd;
 pub mod mac;
 mod misfit;
 mod mode_selection;
+mod nonlinearity;
 mod one_band;
 pub mod operational;
 mod outside;
@@ -44,6 +46,7 @@ mod reweight;
 pub mod sdof;
 mod settings;
 mod stabilisation;
+mod two_modes;
 mod uncertainty;
 mod whirl;
 mod window;

@@ -8,19 +8,18 @@
 //! * poles of the outputs that follow the square of their motion: the mass of a sensor that is moved. The pole without it
 //!   is that of an output at rest;
 //! * a pole that follows the square of the motion along the resonance, λ + κ|σ/(s − λ)|²: a nonlinearity. The pole of
-//!   the linear structure is that of no motion, λ + δ: δ and κ by linear least squares on the residuals.
+//!   the linear structure is that of no motion, λ + δ (`nonlinearity`).
 //!
 //! Half the square of the distance to the pole at rest joins the variance, so that the interval covers both.
 //!
 //! Source: Bell & McCaffrey, Survey Methodology 28 (2002), on few groups and their degrees of freedom; Cameron, Gelbach &
 //! Miller, J. Business & Economic Statistics 29 (2011), on sums over groupings in several ways.
 
-use std::f64::consts::TAU;
-
 use nalgebra::DMatrix;
 
 use super::data::Data;
-use super::dense::{mul, tr_mul};
+use super::dense::tr_mul;
+use super::nonlinearity::linear_poles;
 use super::refine::{FitPoint, GaussNewtonStep, Problem};
 use super::uncertainty::PoleCovariance;
 use rotordyn_linalg::Complex64;
@@ -59,7 +58,7 @@ pub(super) fn with_model_error(
     let known: Vec<f64> = trends.iter().flatten().map(|trend| trend.t).collect();
     let together = known.iter().sum::<f64>() / (known.len().max(1) as f64).sqrt();
     // So does a nonlinearity.
-    let rests: Vec<Option<LinearPole>> = modes.iter().map(|mode| mode.linear_pole(problem)).collect();
+    let rests = linear_poles(problem, at, step);
     let known: Vec<f64> = rests.iter().flatten().map(|rest| rest.significance).collect();
     let nonlinear = known.iter().sum::<f64>() > MIN_MEAN_SIGNIFICANCE * known.len() as f64;
     modes
@@ -125,10 +124,7 @@ pub(super) fn outputs_differ(problem: &Problem, at: &FitPoint) -> Vec<bool> {
 }
 
 /// Groups of data of one mode.
-struct ModeGroups<'a> {
-    at: &'a FitPoint,
-    step: &'a GaussNewtonStep,
-    m: usize,
+struct ModeGroups {
     /// First parameter of the mode and their number, complex.
     first: usize,
     count: usize,
@@ -153,21 +149,13 @@ struct Trend {
     at_rest: f64,
 }
 
-/// The pole of the linear structure, that of no motion.
-struct LinearPole {
-    /// From the pole of the mode \[1/s\].
-    distance: Complex64,
-    /// F statistic of the change of the pole along the resonance.
-    significance: f64,
-}
-
-impl<'a> ModeGroups<'a> {
-    fn new(data: &Data, at: &'a FitPoint, step: &'a GaussNewtonStep, m: usize) -> Self {
+impl ModeGroups {
+    fn new(data: &Data, at: &FitPoint, step: &GaussNewtonStep, m: usize) -> Self {
         let first = step.parameters.iter().position(|p| p.mode == m).unwrap_or(0);
         let count = step.parameters.iter().filter(|p| p.mode == m).count();
         let inverse = step.inverse_block(2 * first, 2 * count);
         let shape = (0..data.outputs()).map(|o| at.shape(m, o)).collect();
-        Self { at, step, m, first, count, inverse, shape }
+        Self { first, count, inverse, shape }
     }
 
     /// Jᵀe of one output.
@@ -182,21 +170,10 @@ impl<'a> ModeGroups<'a> {
     }
 
     /// JᵀJ of the mode for products `[rr, ri, ii]` of the shape and of the derivatives.
-    fn information(&self, products: [f64; 3], gram: &dyn Fn(usize, usize) -> f64) -> DMatrix<f64> {
-        self.information_of(self.count, self.count, products, gram)
-    }
-
-    /// The same between complex parameters of two kinds, `rows` and `columns` of them.
-    fn information_of(
-        &self,
-        rows: usize,
-        columns: usize,
-        [rr, ri, ii]: [f64; 3],
-        gram: &dyn Fn(usize, usize) -> f64,
-    ) -> DMatrix<f64> {
-        let mut square = DMatrix::zeros(2 * rows, 2 * columns);
-        for a in 0..rows {
-            for b in 0..columns {
+    fn information(&self, [rr, ri, ii]: [f64; 3], gram: &dyn Fn(usize, usize) -> f64) -> DMatrix<f64> {
+        let mut square = DMatrix::zeros(2 * self.count, 2 * self.count);
+        for a in 0..self.count {
+            for b in 0..self.count {
                 let g = |i: usize, j: usize| gram(2 * a + i, 2 * b + j);
                 square[(2 * a, 2 * b)] = rr * g(0, 0) + ri * (g(0, 1) + g(1, 0)) + ii * g(1, 1);
                 square[(2 * a, 2 * b + 1)] = rr * g(0, 1) + ri * (g(1, 1) - g(0, 0)) - ii * g(1, 0);
@@ -236,71 +213,6 @@ impl<'a> ModeGroups<'a> {
             self.add(&mut total, &self.gradient(slope, o), &information);
         }
         total.groups()
-    }
-
-    /// The pole of no motion; `None` if the FRFs do not determine it.
-    fn linear_pole(&self, problem: &Problem) -> Option<LinearPole> {
-        if self.count == 0 {
-            return None;
-        }
-        let data = problem.data();
-        let (lines, pole) = (data.lines(), &self.at.poles[self.m]);
-        // Derivatives by the pole, times the square of the motion over its largest.
-        let mut columns = problem.pole_derivative(pole);
-        for (k, hz) in data.frequencies.iter().enumerate() {
-            let motion = pole.value.re.powi(2) / (Complex64::new(0.0, TAU * hz) - pole.value).norm_sqr();
-            for block in 0..2 * data.inputs() {
-                columns.row_mut(block * lines + k).iter_mut().for_each(|value| *value *= motion);
-            }
-        }
-        let columns = &columns - mul(&self.at.q, &tr_mul(&self.at.q, &columns));
-        let slope = tr_mul(&columns, &self.at.residual);
-        let sum = |of: &dyn Fn(&Complex64) -> f64| self.shape.iter().map(of).sum::<f64>();
-        let products = [sum(&|p| p.re * p.re), sum(&|p| p.re * p.im), sum(&|p| p.im * p.im)];
-        let gradient: Complex64 = self
-            .shape
-            .iter()
-            .enumerate()
-            .map(|(o, psi)| psi.conj() * Complex64::new(slope[(0, o)], slope[(1, o)]))
-            .sum();
-        let gradient = DMatrix::from_column_slice(2, 1, &[gradient.re, gradient.im]);
-        let size = 2 * self.count;
-        let jacobian = self.step.projected_jacobian.columns(2 * self.first, size).into_owned();
-        let all = tr_mul(&columns, &jacobian);
-        let own = tr_mul(&columns, &columns);
-        let own = self.information_of(1, 1, products, &|i, j| own[(i, j)]);
-        let cross = self.information_of(1, self.count, products, &|i, j| all[(i, j)]);
-        // Without the part that the mode's own parameters take up.
-        let taken = &cross * &self.inverse;
-        let rest = own - &taken * cross.transpose();
-        let change = rest.lu().solve(&gradient)?;
-        // Scatter of the gradient from line to line: noise of the force is strong at the resonance, and common to all outputs.
-        let mut scatter = DMatrix::<f64>::zeros(2, 2);
-        for line in 0..lines {
-            for input in 0..data.inputs() {
-                let mut score = DMatrix::<f64>::zeros(2 + size, 1);
-                for row in [2 * input * lines + line, (2 * input + 1) * lines + line] {
-                    let outputs = self.shape.iter().enumerate();
-                    let error: Complex64 = outputs.map(|(o, p)| p.conj() * self.at.residual[(row, o)]).sum();
-                    let mut add = |place: usize, re: f64, im: f64| {
-                        let g = Complex64::new(re, im) * error;
-                        score[place] += g.re;
-                        score[place + 1] += g.im;
-                    };
-                    add(0, columns[(row, 0)], columns[(row, 1)]);
-                    for a in 0..self.count {
-                        add(2 + 2 * a, jacobian[(row, 2 * a)], jacobian[(row, 2 * a + 1)]);
-                    }
-                }
-                let own = score.rows(0, 2) - &taken * score.rows(2, size);
-                scatter += &own * own.transpose();
-            }
-        }
-        let significance = 0.5 * (gradient.transpose() * scatter.lu().solve(&gradient)?)[0];
-        let pole = -(self.inverse.rows(0, 2) * cross.transpose() * change);
-        significance
-            .is_finite()
-            .then(|| LinearPole { distance: Complex64::new(pole[0], pole[1]), significance })
     }
 
     /// Trend of the outputs' poles with the square of their motion; `None` with too few outputs.

@@ -15,6 +15,7 @@ use super::pairs::{self, Split};
 use super::plscf::{Pole, StablePole, damping_ratio};
 use super::refine::{FitPoint, MIN_LOCAL_GAIN, Problem, significance};
 use super::reweight::reweight;
+use super::two_modes::are_two;
 use super::uncertainty::{PoleCovariance, covariance, standard_errors, white_noise_covariance};
 use super::{DroppedPole, QualityWarning, Settings};
 use rotordyn_linalg::Complex64;
@@ -90,6 +91,10 @@ pub(super) fn select_modes(
         .zip(&mut quality_warnings)
         .filter(|(pole, _)| pole.held)
         .for_each(|(_, own)| own.push(QualityWarning::Held));
+    for (m, pull) in pulls(&problem, &at) {
+        covariance[m][0] += pull.re * pull.re;
+        covariance[m][1] += pull.im * pull.im;
+    }
     let fit = problem.fit(&at);
     Some(SelectedModes {
         poles: at.poles,
@@ -98,6 +103,29 @@ pub(super) fn select_modes(
         significance: settled.significance,
         quality_warnings,
     })
+}
+
+/// Held poles, and how far the FRFs draw each away, at most by its decay rate: the scatter over the orders does not contain this
+/// error of the model.
+fn pulls(problem: &Problem, at: &FitPoint) -> Vec<(usize, Complex64)> {
+    if at.poles.iter().all(|pole| !pole.held) {
+        return Vec::new();
+    }
+    let free: Vec<Pole> = at.poles.iter().map(|pole| Pole { held: false, ..pole.clone() }).collect();
+    let free = problem.refine(free, 0);
+    let moved = problem.step(&free).damped_step(&free.poles, 0.0).map(|(poles, _)| poles);
+    let pull = |m: usize| {
+        let (pole, decay) = (&at.poles[m], at.poles[m].value.re.abs());
+        // Undetermined: all of it.
+        let all = Complex64::new(decay, decay);
+        let by = moved.as_ref().map_or(all, |moved| moved[m].value - pole.value);
+        let size = by.norm();
+        if !size.is_finite() {
+            return (m, all);
+        }
+        (m, by * (decay / size.max(decay)))
+    };
+    (0..at.poles.len()).filter(|m| at.poles[*m].held).map(pull).collect()
 }
 
 /// The fit with the pairs that are certain, and the poles of modes that may be two.
@@ -151,6 +179,8 @@ fn settle(
     dropped: &mut Vec<DroppedPole>,
 ) -> Option<RefinedModes> {
     let band = problem.data().band();
+    // Splits that are left.
+    let mut splits = poles.len();
     let mut at = problem.refine(poles, FINAL_STEPS);
     let mut duplicates = Vec::new();
     loop {
@@ -191,6 +221,17 @@ fn settle(
         let Some(worst) = worst else {
             return Some(RefinedModes { at, covariance, significance, duplicates });
         };
+        // A mode that is uncertain because it is two.
+        if splits > 0
+            && let Some(pair) = pairs::certain_pair(problem, &at, worst, settings)
+        {
+            splits -= 1;
+            let mut poles = at.poles;
+            poles.remove(worst);
+            poles.extend(pair);
+            at = problem.refine(poles, FINAL_STEPS);
+            continue;
+        }
         dropped.extend(fault(worst));
         at = refined_without(problem, at, worst)?;
     }
@@ -265,7 +306,7 @@ fn remove_faulty_poles(
     let fault_of = |m: usize| {
         let weak = significance_fault(&at.poles[m], covariance[m], significance[m], band)
             .map(|fault| (fault, false));
-        weak.or_else(|| Some((duplicate_fault(problem.data(), at, m, &significance)?, true)))
+        weak.or_else(|| Some((duplicate_fault(problem, at, m, &significance)?, true)))
     };
     let worst = (0..count)
         .filter_map(|m| Some((m, fault_of(m)?)))
@@ -345,24 +386,51 @@ const MAX_DUPLICATE_DISTANCE: f64 = 3.0;
 /// Minimum number of outputs, and MAC of the shapes, for two close poles to be duplicates.
 const MIN_DUPLICATE_OUTPUTS: usize = 8;
 const MIN_DUPLICATE_MAC: f64 = 0.7;
+/// Share of one output in |shape|² from which a mode moves that output alone.
+const MIN_ALONE: f64 = 0.8;
+/// |shape|² of an output over the mean of all, from which a mode moves it, and the share of nearly all outputs.
+const MIN_MOTION: f64 = 0.01;
+const MOST_OUTPUTS: f64 = 0.75;
 
-/// Duplicate pole: whether a more significant mode close to this one has the same shape. Inconsistent FRFs (a
-/// structure that changed between hits) give one mode twice.
+/// Duplicate pole: whether a more significant mode close to this one has the same shape, or this one moves one output alone
+/// that the other moves too (or all but that one: the poles part there). Inconsistent FRFs (a structure that changed between hits, an output measured at another time)
+/// give one mode twice.
 ///
 /// MAC of the shapes as measured or as scaled for the fit: the fit's weights amplify outputs of small motion,
 /// over which duplicates split at random.
-fn duplicate_fault(data: &Data, at: &FitPoint, m: usize, significance: &[f64]) -> Option<DroppedPole> {
+fn duplicate_fault(problem: &Problem, at: &FitPoint, m: usize, significance: &[f64]) -> Option<DroppedPole> {
+    let data = problem.data();
     let fitted = |m: usize| (0..at.x.ncols()).map(|o| at.shape(m, o)).collect::<Vec<_>>();
     let measured = |m: usize| {
         let scaled = fitted(m).into_iter().zip(&data.output_scale);
         scaled.map(|(v, scale)| v * *scale).collect::<Vec<_>>()
     };
+    let alone = the_only_output(&fitted(m)).filter(|o| the_only_output(&measured(m)) == Some(*o));
     let other = stronger_neighbours(at, m, significance).find(|&k| {
         let shape_mac = || mac(&fitted(m), &fitted(k)).max(mac(&measured(m), &measured(k)));
-        at.x.ncols() >= MIN_DUPLICATE_OUTPUTS && shape_mac() > MIN_DUPLICATE_MAC
+        let are_two = || {
+            let (fit, pair) = (problem.fit(at), [&at.poles[m], &at.poles[k]]);
+            are_two(data, &at.poles, &fit, &[m, k], pair, MIN_DUPLICATE_MAC)
+        };
+        at.x.ncols() >= MIN_DUPLICATE_OUTPUTS
+            && (alone.is_some_and(|o| moves(&measured(k), o)) || shape_mac() > MIN_DUPLICATE_MAC)
+            && !are_two()
     })?;
     let reason = format!("duplicate of the mode at {:.3} Hz", at.poles[other].value.im / TAU);
     Some(DroppedPole { value: at.poles[m].value, reason })
+}
+
+/// The output that a shape moves almost alone.
+fn the_only_output(shape: &[Complex64]) -> Option<usize> {
+    let all: f64 = shape.iter().map(|v| v.norm_sqr()).sum();
+    shape.iter().position(|v| v.norm_sqr() > MIN_ALONE * all)
+}
+
+/// Whether a shape moves an output, or nearly all others.
+fn moves(shape: &[Complex64], output: usize) -> bool {
+    let mean = shape.iter().map(|v| v.norm_sqr()).sum::<f64>() / shape.len() as f64;
+    let moved = shape.iter().filter(|v| v.norm_sqr() > MIN_MOTION * mean).count();
+    shape[output].norm_sqr() > MIN_MOTION * mean || moved as f64 > MOST_OUTPUTS * shape.len() as f64
 }
 
 /// More significant modes so close to a mode that it may be a duplicate of them.

@@ -6,7 +6,8 @@
 //! that noise does not, and if its shape is another: noise of the force and nonlinearities give it the same.
 //!
 //! FRFs of a structure that changes between hits (pole λ + δ_o of output o) have the same double pole: unless the fit is
-//! exact or the squared residuals fall to a hundredth with unlike shapes, the mode stays one and is marked.
+//! exact, the squared residuals fall to a hundredth with unlike shapes, or one pole for each FRF explains less
+//! (`two_modes`), the mode stays one and is marked.
 
 use std::f64::consts::TAU;
 
@@ -19,6 +20,7 @@ use super::mac::mac;
 use super::plscf::{Pole, normalise_largest};
 use super::pole_selection::directions;
 use super::refine::{FitPoint, Problem};
+use super::two_modes::{MIN_EXPLAINED, are_two, noise};
 use super::window::Window;
 use rotordyn_linalg::Complex64;
 
@@ -61,9 +63,6 @@ const START_DISTANCES: [f64; 2] = [0.2, 0.7];
 const MIN_SIGNIFICANCE: f64 = 10.0;
 /// Minimum share of the second pole in the energy of the FRFs in the window: 0.1 % of the amplitude.
 const MIN_SHARE: f64 = 1e-6;
-/// What the second pole explains over what neither it nor noise explains: less is as likely a structure that changes between
-/// hits, of which a second pole takes up a part.
-const MIN_EXPLAINED: f64 = 20.0;
 /// Residuals over the FRFs, squared, at which of one mode there is nothing left to explain; and at which a fit counts as
 /// exact, so that its modes are the only ones that explain the FRFs.
 const ROUND_OFF: f64 = 1e-20;
@@ -123,6 +122,19 @@ pub(super) fn splits(problem: &Problem, at: &FitPoint, settings: &Settings) -> V
     splits
 }
 
+/// Two modes for certain in the place of a mode.
+pub(super) fn certain_pair(
+    problem: &Problem,
+    at: &FitPoint,
+    m: usize,
+    settings: &Settings,
+) -> Option<[Pole; 2]> {
+    match pair_of(problem, &at.poles, &problem.fit(at), m, settings)? {
+        Split::Two(pair) => Some(pair),
+        _ => None,
+    }
+}
+
 /// Two modes instead of one; `None` if it is one.
 fn pair_of(problem: &Problem, poles: &[Pole], fit: &Fit, m: usize, settings: &Settings) -> Option<Split> {
     if poles[m].held {
@@ -148,19 +160,15 @@ fn pair_of(problem: &Problem, poles: &[Pole], fit: &Fit, m: usize, settings: &Se
     }
     let unexplained = (two.cost - noise(&two, around.window.data.lines())).max(0.0);
     let alike = shape_mac(&here, &two, a, b);
-    if alike > DIFFERENT_SHAPES || gain < MIN_EXPLAINED * unexplained || gain < MIN_SHARE * energy {
+    if gain < MIN_EXPLAINED * unexplained || gain < MIN_SHARE * energy {
         return None;
     }
-    let certain = one.cost > LARGE_REDUCTION * two.cost && alike < UNLIKE_SHAPES;
+    let certain = (one.cost > LARGE_REDUCTION * two.cost && alike < UNLIKE_SHAPES)
+        || are_two(problem.data(), poles, fit, &[m], [&pair[0], &pair[1]], UNLIKE_SHAPES);
+    if !certain && alike > DIFFERENT_SHAPES {
+        return None;
+    }
     Some(if certain { Split::Two(pair) } else { Split::Maybe(pair) })
-}
-
-/// Energy of the noise in the residuals, by third differences from line to line, as in `data::noise_rms`; their mean, not the
-/// median, contains the noise of the force, which is strongest at the resonance.
-fn noise(at: &FitPoint, lines: usize) -> f64 {
-    let third = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).powi(2) / 20.0;
-    let of = |part: &[f64]| part.windows(4).map(third).sum::<f64>() * lines as f64 / (lines - 3) as f64;
-    at.residual.as_slice().chunks(lines).map(of).sum()
 }
 
 /// The FRFs around a mode.
@@ -270,10 +278,13 @@ pub(super) fn indistinct(problem: &Problem, at: &FitPoint) -> Vec<(usize, usize)
         return Vec::new();
     }
     let distance = |a: usize, b: usize| (at.poles[a].value - at.poles[b].value).norm();
+    let fit = problem.fit(at);
     let alike = |a: usize, b: usize| {
         let (first, second) = (&at.poles[a], &at.poles[b]);
         let close = distance(a, b) < CLOSE * first.value.re.abs().max(second.value.re.abs());
-        close && !different(shape_mac(problem, at, a, b), first, second)
+        close
+            && !different(shape_mac(problem, at, a, b), first, second)
+            && !are_two(problem.data(), &at.poles, &fit, &[a, b], [first, second], DIFFERENT_SHAPES)
     };
     let count = at.poles.len();
     let neighbour = |a: usize| {

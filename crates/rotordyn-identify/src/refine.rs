@@ -118,7 +118,7 @@ impl GaussNewtonStep {
     }
 
     /// Poles after a damped (Levenberg-Marquardt) step, and the cost reduction predicted by the linear model.
-    fn damped_step(&self, poles: &[Pole], damping: f64) -> Option<(Vec<Pole>, f64)> {
+    pub fn damped_step(&self, poles: &[Pole], damping: f64) -> Option<(Vec<Pole>, f64)> {
         let mut square = self.normal_matrix.clone();
         for k in 0..square.nrows() {
             square[(k, k)] *= 1.0 + damping;

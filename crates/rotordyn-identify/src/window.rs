@@ -19,6 +19,17 @@ pub(super) struct Window {
 impl Window {
     /// The part of the band between two frequencies \[Hz\]; `None` if the principal directions cannot be found.
     pub fn new(data: &Data, poles: &[Pole], fit: &Fit, between: [f64; 2]) -> Option<Self> {
+        let mut here = Self::of_all_outputs(data, poles, fit, between);
+        here.data.values = project_outputs(&here.data, DIRECTIONS).ok()?;
+        if here.data.output_scale.len() > DIRECTIONS {
+            // A direction is no output: it has no scale of its own.
+            here.data.output_scale = vec![1.0; DIRECTIONS];
+        }
+        Some(here)
+    }
+
+    /// The same with the outputs as they are.
+    pub fn of_all_outputs(data: &Data, poles: &[Pole], fit: &Fit, between: [f64; 2]) -> Self {
         let line =
             |hz: f64| ((hz - data.frequencies[0]) / data.step).round().clamp(0.0, (data.lines() - 1) as f64);
         let [first, last] = between.map(|hz| line(hz) as usize);
@@ -34,12 +45,6 @@ impl Window {
             far.iter().map(of).sum::<Complex64>() * factor[k]
         };
         let near = inside.iter().map(|&k| poles[k].clone()).collect();
-        let mut data = data.window(first..=last, others);
-        data.values = project_outputs(&data, DIRECTIONS).ok()?;
-        if data.output_scale.len() > DIRECTIONS {
-            // A direction is no output: it has no scale of its own.
-            data.output_scale = vec![1.0; DIRECTIONS];
-        }
-        Some(Self { data, near, inside })
+        Self { data: data.window(first..=last, others), near, inside }
     }
 }

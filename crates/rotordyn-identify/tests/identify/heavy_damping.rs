@@ -43,8 +43,11 @@ fn a_mode_above_the_limit_is_named() {
 #[test]
 fn bands_of_a_wide_record_name_what_they_leave_out() {
     let shape = [[0.9, -0.4, 0.7, 0.3], [0.5, 0.8, -0.6, 0.4], [0.2, 0.7, 0.9, -0.5]];
-    let known: Vec<KnownMode> =
-        [4.0, 60.0, 280.0].iter().zip(&shape).map(|(hz, of)| KnownMode::real(*hz, 0.02, of, &[0, 2])).collect();
+    let known: Vec<KnownMode> = [4.0, 60.0, 280.0]
+        .iter()
+        .zip(&shape)
+        .map(|(hz, of)| KnownMode::real(*hz, 0.02, of, &[0, 2]))
+        .collect();
     let made = frfs(&known, &lines(1.0, 400.0, 0.125), 0);
     let settings = Settings { largest_damping: 0.01, ..Settings::default() };
     let IdentifyError::NoMode { dropped, .. } = identify(&made, &settings).unwrap_err() else {
