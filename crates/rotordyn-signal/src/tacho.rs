@@ -1,6 +1,7 @@
 //! Shaft angle and speed from the pulses of a tacho, with pulses missing, added or shaken.
 
 pub mod alias;
+mod counts;
 
 use std::collections::VecDeque;
 
@@ -8,13 +9,7 @@ use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record};
 use rotordyn_linalg::pchip::Pchip;
 
-/// Most pitches of the pulse wheel that one interval may hold, and most pulses dropped in a row.
-const MOST_PITCHES: usize = 6;
-const MOST_DROPPED: usize = 2;
-/// Cost of n pitches in one interval over ln n: a gap within a run saves 2 ln n, a start from rest would save ln n.
-const MISSING_COST: f64 = 1.3;
-/// Cost of dropping a pulse: one in the middle of an interval saves 2 ln 2.
-const DROPPED_COST: f64 = 1.0;
+use counts::{MOST_PITCHES, best_counts};
 
 /// Typical intervals between pulses over which a channel has its local lowest and highest value.
 const ENVELOPE_INTERVALS: f64 = 4.0;
@@ -26,6 +21,10 @@ const MIN_SAMPLES: f64 = 3.0;
 /// are not those of a shaft: noise has 0.2 and 0.25, a wheel of uneven teeth changes without repairs.
 const MOST_CHANGE: f64 = 0.12;
 const MOST_REPAIRS: f64 = 0.15;
+/// Intervals on either side of a jump of speed, highest over lowest speed of a side, and deviation of a whole factor.
+const JUMP_INTERVALS: usize = 4;
+const STEADY: f64 = 1.15;
+const WHOLE: f64 = 0.1;
 
 /// Times at which a tacho channel rises through a level, by linear interpolation, with hysteresis.
 ///
@@ -171,9 +170,10 @@ pub struct PulseTrain {
 impl PulseTrain {
     /// Counts the shaft's turns from pulse times, with missing pulses added and false ones dropped.
     ///
-    /// Of all ways to keep pulses and to give each interval a whole number n ≤ 6 of pitches, the one of least
-    /// Σ |ln v_k/v_{k−1}| + 1.3 Σ ln n + dropped pulses, v = n/Δt: a gap within a run is bridged, a start from rest,
-    /// whose first intervals halve from one to the next, is not. `times` \[s\] increasing, `per_revolution` pulses.
+    /// Of all ways to keep pulses and to give each interval a whole number n of pitches (up to 6, or what the speeds on both
+    /// sides of a long gap make of it), the one of least Σ |ln v_k/v_{k−1}| + 1.3 Σ ln n + dropped pulses, v = n/Δt: a gap
+    /// within a run is bridged, a start from rest, whose first intervals halve from one to the next, is not; where the same
+    /// n > 1 goes on (every second pulse missing for a time), only its first interval costs 1.3 ln n. `times` \[s\] increasing, `per_revolution` pulses.
     /// Errors: NaN, times that do not increase, fewer than four pulses.
     pub fn new(times: &[f64], per_revolution: usize) -> Result<Self, SignalError> {
         check_record("pulse times", times)?;
@@ -200,7 +200,7 @@ impl PulseTrain {
 
     /// Why these are not the pulses of a shaft; `None` if they may be. `given`: pulses before repair.
     ///
-    /// Repairs of more than half the pulses; or of more than a seventh with a speed that changes by 12 % from one interval to
+    /// A speed that changes by a whole factor from one interval to the next. Repairs of more than half the pulses; or of more than a seventh with a speed that changes by 12 % from one interval to
     /// the next on the median: a start from rest does so over a few intervals only.
     pub fn implausible(&self, given: usize) -> Option<String> {
         let repairs = (self.missing + self.dropped) as f64 / given.max(1) as f64;
@@ -209,7 +209,11 @@ impl PulseTrain {
         changes.sort_by(f64::total_cmp);
         let change = changes.get(changes.len() / 2).copied().unwrap_or(0.0);
         if repairs <= 0.5 && (repairs <= MOST_REPAIRS || change <= MOST_CHANGE) {
-            return None;
+            let (time, [before, after]) = self.whole_jump()?;
+            return Some(format!(
+                "its speed would change from {before:.0} to {after:.0} rpm from one pulse to the next at {time:.4} s: on one side \
+                 pulses are missing one by one, or counted more than once; cut the record there, or mend the channel"
+            ));
         }
         Some(format!(
             "of {given} pulses {} would be false and {} missing, and the speed would change by {:.0} % from one to the next: \
@@ -220,9 +224,43 @@ impl PulseTrain {
         ))
     }
 
+    /// Time \[s\] and speeds \[rpm\] where the speed changes by a factor of two or another whole one (or its reciprocal) from one
+    /// interval to the next, between parts of steady speed: no shaft does, but a train that loses every second pulse.
+    fn whole_jump(&self) -> Option<(f64, [f64; 2])> {
+        let (times, speeds) = self.speeds_rpm();
+        let around = JUMP_INTERVALS..(speeds.len() + 1).saturating_sub(JUMP_INTERVALS);
+        around.into_iter().find_map(|k| {
+            let part = |speeds: &[f64]| {
+                let [least, most] = [f64::min, f64::max].map(|of| speeds.iter().copied().reduce(of));
+                let (least, most) = (least?, most?);
+                (most < STEADY * least).then_some((least * most).sqrt())
+            };
+            let [before, after] =
+                [part(&speeds[k - JUMP_INTERVALS..k])?, part(&speeds[k..k + JUMP_INTERVALS])?];
+            let factor = (after / before).max(before / after);
+            let whole = factor.round();
+            (whole >= 2.0 && (factor / whole - 1.0).abs() < WHOLE)
+                .then_some((0.5 * (times[k - 1] + times[k]), [before, after]))
+        })
+    }
+
+    /// Times \[s\] between which pulses are missing for more than six pitches, and the turns between them.
+    pub fn gaps(&self) -> Vec<([f64; 2], f64)> {
+        let pitch = self.pitch();
+        let pairs = self.times.windows(2).zip(self.revolutions.windows(2));
+        let all = pairs.map(|(t, r)| ([t[0], t[1]], r[1] - r[0]));
+        all.filter(|(_, turns)| *turns > (MOST_PITCHES as f64 + 0.5) * pitch).collect()
+    }
+
+    /// Turns from one pulse to the next.
+    pub(super) fn pitch(&self) -> f64 {
+        // Missing pulses make pitches of several.
+        self.revolutions.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min)
+    }
+
     /// Samples of a tacho channel in the time of a pulse, if so few that its pulses are not resolved: below 3 on the median.
     pub fn unresolved(&self, sample_rate: f64) -> Option<f64> {
-        let pitch = self.revolutions.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
+        let pitch = self.pitch();
         let pairs = self.times.windows(2).zip(self.revolutions.windows(2));
         let mut samples: Vec<f64> =
             pairs.map(|(t, r)| (t[1] - t[0]) * sample_rate * pitch / (r[1] - r[0])).collect();
@@ -279,58 +317,4 @@ impl PulseTrain {
         let angle = (from..end).map(|n| std::f64::consts::TAU * turns.evaluate(n as f64 / sample_rate)[0]);
         Ok((angle.collect(), from))
     }
-}
-
-/// Pulses kept and the pitches between them: the cheapest path through intervals (Viterbi).
-fn best_counts(times: &[f64]) -> (Vec<usize>, Vec<usize>) {
-    // A state is the interval that ends at a pulse: how many pulses back it began, and how many pitches it holds.
-    let states: Vec<(usize, usize)> =
-        (1..=MOST_DROPPED + 1).flat_map(|back| (1..=MOST_PITCHES).map(move |count| (back, count))).collect();
-    let repair =
-        |(back, count): (usize, usize)| MISSING_COST * (count as f64).ln() + DROPPED_COST * (back - 1) as f64;
-    let speed =
-        |pulse: usize, (back, count): (usize, usize)| count as f64 / (times[pulse] - times[pulse - back]);
-    // Cost of the best path to each state and the state before it; a path may drop the first pulses.
-    let mut best: Vec<Vec<(f64, Option<usize>)>> = vec![Vec::new(); times.len()];
-    for pulse in 0..times.len() {
-        let mut row = vec![(f64::INFINITY, None); states.len()];
-        for (entry, &state) in row.iter_mut().zip(&states) {
-            let Some(before) = pulse.checked_sub(state.0) else { continue };
-            if before <= MOST_DROPPED {
-                *entry = (repair(state) + DROPPED_COST * before as f64, None);
-            }
-            let now = speed(pulse, state);
-            for (index, &previous) in states.iter().enumerate() {
-                let so_far = best[before][index].0;
-                if so_far.is_infinite() {
-                    continue;
-                }
-                let total = so_far + (now / speed(before, previous)).ln().abs() + repair(state);
-                if total < entry.0 {
-                    *entry = (total, Some(index));
-                }
-            }
-        }
-        best[pulse] = row;
-    }
-    // The last pulses may be dropped too.
-    let ends = (0..=MOST_DROPPED).filter_map(|dropped| {
-        let pulse = times.len().checked_sub(1 + dropped)?;
-        let (state, (cost, _)) = best[pulse].iter().enumerate().min_by(|a, b| a.1.0.total_cmp(&b.1.0))?;
-        Some((cost + DROPPED_COST * dropped as f64, pulse, state))
-    });
-    let (_, mut pulse, state) =
-        ends.min_by(|a, b| a.0.total_cmp(&b.0)).expect("there is a last pulse, with states");
-    let (mut kept, mut counts) = (vec![pulse], Vec::new());
-    let mut next = Some(state);
-    while let Some(state) = next {
-        let (back, count) = states[state];
-        next = best[pulse][state].1;
-        pulse -= back;
-        kept.push(pulse);
-        counts.push(count);
-    }
-    kept.reverse();
-    counts.reverse();
-    (kept, counts)
 }

@@ -7,14 +7,18 @@
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-use super::SignalError;
 use super::order_tracks::OrderTracks;
 use super::tacho::PulseTrain;
 
-/// Pulses on either side of the cubic that the jitter is measured against.
+/// Pulses on either side of a cubic that jitter is measured against, and the weight of its own pulse in it (Savitzky-Golay,
+/// nine points): the share of white jitter that it follows.
 const HALF_WIDTH: usize = 4;
-/// Weight of its own pulse in that cubic (Savitzky-Golay, nine points): the share of white jitter that it follows.
 const OWN_WEIGHT: f64 = 59.0 / 231.0;
+/// Orders of the differences that jitter is measured by.
+const ORDERS: std::ops::RangeInclusive<usize> = 3..=6;
+/// Least pulses of a train, and runs of them without a missing one.
+const MIN_PULSES: usize = 18;
+const MIN_RUNS: usize = 8;
 /// Noise bandwidth over −3 dB bandwidth of the two-pole filter 1/(1 + (√2 − 1) u⁴), u = 2 Δ/B:
 /// ½ (√2 − 1)^(−1/4) 3π/(4 √2).
 const NOISE_BANDWIDTH: f64 = 1.038_3;
@@ -48,22 +52,48 @@ pub fn amplitude_kept(order: f64, deviation: f64) -> f64 {
 }
 
 impl Jitter {
-    /// Jitter of a train: its pulses against a cubic through each and its four neighbours on either side.
+    /// Jitter of a train, from differences of its pulse times.
     ///
-    /// σ = √(Σδ²/N / (1 − 59/231)) for white jitter; a speed that changes within four pulses counts as jitter too.
-    /// `None` for fewer than 18 pulses. Errors: those of [`PulseTrain::smoothed`].
-    pub fn of_pulses(train: &PulseTrain) -> Result<Option<Self>, SignalError> {
-        let count = train.revolutions.len();
-        if count < 4 * HALF_WIDTH + 2 {
-            return Ok(None);
+    /// σ = 2π p √(mean (Δᵈt/h)² / C(2d, d)), h the mean interval of the d + 1 pulses, p turns a pulse: for white jitter the same
+    /// for every d, while a speed that swings within a few turns has ever less of it: the least of d = 3 to 6 and of the deviation from cubics
+    /// (times rounded to samples are not white).
+    /// `None` for fewer than 18 pulses or 8 runs of 7 without a missing one.
+    pub fn of_pulses(train: &PulseTrain) -> Option<Self> {
+        let pitch = train.pitch();
+        if train.times.len() < MIN_PULSES {
+            return None;
         }
-        let smooth = train.smoothed(HALF_WIDTH)?;
-        let inner = HALF_WIDTH..count - HALF_WIDTH;
+        let of = |order: usize| {
+            let mut weights = vec![1.0];
+            for k in 0..order {
+                weights.push(-weights[k] * (order - k) as f64 / (k + 1) as f64);
+            }
+            let runs = train.times.windows(order + 1).zip(train.revolutions.windows(order + 1));
+            let whole = runs.filter(|(_, r)| r[order] - r[0] < (order as f64 + 0.5) * pitch);
+            let squares: Vec<f64> = whole
+                .map(|(t, _)| {
+                    let first = t[0];
+                    let difference: f64 = t.iter().zip(&weights).map(|(t, w)| (t - first) * w).sum();
+                    (difference * order as f64 / (t[order] - t[0])).powi(2)
+                })
+                .collect();
+            let norm: f64 = weights.iter().map(|w| w * w).sum();
+            (squares.len() >= MIN_RUNS)
+                .then(|| (squares.iter().sum::<f64>() / squares.len() as f64 / norm).sqrt())
+        };
+        let least = ORDERS.filter_map(of).reduce(f64::min)?;
+        let angle = (TAU * pitch * least).min(Self::about_cubics(train).unwrap_or(f64::INFINITY));
+        Some(Self { angle, pulses_per_revolution: 1.0 / pitch })
+    }
+
+    /// Deviation of the pulses' angles \[rad\] from a cubic through each and its four neighbours on either side,
+    /// √(Σδ²/N / (1 − 59/231)).
+    fn about_cubics(train: &PulseTrain) -> Option<f64> {
+        let smooth = train.smoothed(HALF_WIDTH).ok()?;
+        let inner = HALF_WIDTH..train.times.len() - HALF_WIDTH;
         let squares = inner.clone().map(|k| (train.revolutions[k] - smooth.revolutions[k]).powi(2));
         let mean = squares.sum::<f64>() / inner.len() as f64;
-        // Missing pulses make pitches of several.
-        let pitch = train.revolutions.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
-        Ok(Some(Self { angle: TAU * (mean / (1.0 - OWN_WEIGHT)).sqrt(), pulses_per_revolution: 1.0 / pitch }))
+        Some(TAU * (mean / (1.0 - OWN_WEIGHT)).sqrt())
     }
 
     /// Standard deviation of the angle \[rad\] after smoothing by a cubic over `half_width` pulses on either side.

@@ -19,6 +19,8 @@ use super::input::{File, InputProblems, plain_name};
 const SMOOTHING: usize = 4;
 /// Jitter of the shaft angle \[rad\] by the grid of the samples above which it is smoothed unasked: an error of 5 % at 10x.
 const GRID_JITTER: f64 = 0.04;
+/// Jitter over that of times rounded to samples, up to which it is that.
+const OVER_GRID: f64 = 2.0;
 /// Share of a record outside the pulses that is named.
 const UNCOVERED: f64 = 0.02;
 /// Records whose shaft orders are compared with the pulses.
@@ -213,6 +215,18 @@ fn tacho(
             times.len()
         ));
     }
+    for ([from, to], turns) in train.gaps() {
+        findings.warn_of(
+            Code::RecordGap,
+            format!(
+                "tacho: no pulses from {} to {} s: the shaft angle there follows the speeds before and behind, {} turns by them; \
+                 phases before and behind are no longer one",
+                number(from, 5),
+                number(to, 5),
+                number(turns, 4)
+            ),
+        );
+    }
     if let Some(problem) = train.implausible(times.len()) {
         findings.problem(format!("--tacho `{}`: {problem}; check that it is the tacho channel", record.name));
         return None;
@@ -241,8 +255,10 @@ fn tacho(
                 ),
             );
         }
-        let jitter = findings.value_or_problem("--tacho: ", Jitter::of_pulses(&train))?;
-        let coarse = jitter.filter(|j| j.angle > GRID_JITTER && lie_on_the_grid(&train.times, pulse_rate));
+        let jitter = Jitter::of_pulses(&train).filter(|jitter| jitter.angle > GRID_JITTER);
+        let on_grid = lie_on_the_grid(&train.times, pulse_rate);
+        let coarse =
+            jitter.filter(|jitter| on_grid && jitter.angle < OVER_GRID * grid_jitter(&train, pulse_rate));
         if let Some(jitter) = coarse.filter(|_| smoothing.is_none()) {
             smoothing = Some(SMOOTHING);
             findings.warn_of(
@@ -276,6 +292,12 @@ fn true_speed(
     let times: Vec<f64> = train.times.iter().map(|t| t - start).collect();
     let speed = aliased_speed(values, rate, [&times, &train.revolutions], pulse_rate, per_revolution)?;
     Some((record.name.clone(), speed))
+}
+
+/// Deviation of the shaft angle \[rad\] at pulses that are known to a sample: ω/(f_s √12) at the highest speed.
+fn grid_jitter(train: &PulseTrain, rate: f64) -> f64 {
+    let highest = train.speeds_rpm().1.into_iter().fold(0.0, f64::max);
+    TAU * highest / 60.0 / rate / 12f64.sqrt()
 }
 
 /// Pulse times \[s\]: given as values, or the rising edges of a channel, with its sampling rate \[Hz\].

@@ -6,7 +6,7 @@ use super::grade::{FEATURES, Features};
 use super::line_spectrum::{KnownLines, LinePeak, LineSpectrum};
 use super::part_fit::{FittedLine, PRESENT, PartFit};
 use super::rival_kind::RivalKind;
-use super::rivals::{Rival, find_rivals};
+use super::rivals::{Rival, find_rivals, fraction_of_shaft};
 
 /// Amplitude ratio from which a neighbouring line dominates another on its skirt.
 const DOMINANT: f64 = 3.0;
@@ -140,7 +140,9 @@ fn rivals_of(
             || fit.part == BearingPart::Ball && near(fit.cage, 0.006)
             || fit.part == BearingPart::Cage && near(fit.base, CAGE_WANDER)
     };
-    find_rivals(&others, rates.shaft, hz_per_unit, step, excluded)
+    let mut rivals = find_rivals(&others, rates.shaft, hz_per_unit, step, excluded);
+    rivals.extend(fraction_of_shaft(fit.base, spectrum, rates.shaft));
+    rivals
 }
 
 /// Whether a line lies on the skirt of a higher one that is not of its family.

@@ -19,6 +19,10 @@ const NEIGHBOUR: f64 = 1.0 / 3.0;
 /// Share of the axis that the tolerances of a family may cover where it explains a line: denser ones explain anything.
 const DENSE: f64 = 0.35;
 
+/// Turns from one impact to the next of a rival at a fraction of the shaft speed, and its lowest line over that of the part.
+const TURNS: [usize; 3] = [2, 3, 4];
+const LOWEST: f64 = 0.7;
+
 /// A family of harmonics of one rate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rival {
@@ -134,6 +138,44 @@ pub(super) fn find_rivals(
         found.push(rival);
     }
     found
+}
+
+/// Impacts every second, third or fourth turn, of which a line of a part at such a multiple is a harmonic.
+///
+/// The lines h f ± n f_r of an inner race are all at multiples of f_r/m if f is; impacts at f_r/m have the lowest of them too, and
+/// none is much higher than those below it.
+pub(super) fn fraction_of_shaft(base: f64, spectrum: &LineSpectrum, shaft: f64) -> Option<Rival> {
+    TURNS.into_iter().find_map(|turns| {
+        let rate = shaft / turns as f64;
+        let near = |place: f64| tolerance(RivalKind::Periodic, place, spectrum.step);
+        let number = (base / rate).round() as usize;
+        if number % turns == 0 || (base - number as f64 * rate).abs() > near(base) {
+            return None;
+        }
+        let level = |n: usize| {
+            let place = n as f64 * rate;
+            spectrum.highest(place, near(place)).map_or(0.0, |(_, amplitude)| amplitude)
+        };
+        let own = level(number);
+        let below = (1..number).filter(|n| n % turns != 0);
+        if below.clone().any(|n| level(n) < NEIGHBOUR * own) || level(1) < LOWEST * own {
+            return None;
+        }
+        let matched: Vec<usize> = spectrum
+            .free_peaks()
+            .map(|peak| (peak.frequency, (peak.frequency / rate).round()))
+            .filter(|(place, n)| *n >= 1.0 && (place - n * rate).abs() <= near(*place))
+            .map(|(_, n)| n as usize)
+            .collect();
+        Some(Rival {
+            kind: RivalKind::Periodic,
+            rate,
+            highest: matched.iter().copied().max()?,
+            lines: matched.len(),
+            amplitude: below.map(level).fold(own, f64::max),
+            log_odds: LOG_ODDS,
+        })
+    })
 }
 
 /// Rate that fits the peaks near its harmonics best (least squares, weighted by harmonic number).

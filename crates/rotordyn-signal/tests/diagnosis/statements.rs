@@ -76,6 +76,23 @@ fn foreign_impacts_are_no_line_of_the_bearing() {
     }
 }
 
+/// Impacts every second and every third turn: lines at 5.5 and 16/3 times the shaft speed are in the window of BPFI (5.415), with
+/// all that are side bands of an inner race. A damaged inner race at that very order has few lines far from its own.
+#[test]
+fn impacts_every_few_turns_are_no_inner_race() {
+    for (seed, turns, jitter) in [(71, 2.0, 0.0), (72, 2.0, 0.0), (73, 2.0, 0.003), (74, 3.0, 0.0)] {
+        let found = graded(&record(seed, 5.0, RATES.shaft / turns, jitter, |_| 1.0), &RATES);
+        let Finding::Periodic(at) = found.finding else { panic!("{turns}: {found:?}") };
+        assert!((at * turns / RATES.shaft - 1.0).abs() < 3e-3, "{turns}: {at}");
+    }
+    let turn = std::f64::consts::TAU * RATES.shaft;
+    let in_load_zone = move |t: f64| (0.3 + 0.7 * (turn * t).cos()).max(0.0);
+    for (seed, snr) in [(75, 0.0), (76, 10.0), (77, 40.0)] {
+        let found = graded(&record(seed, snr, 5.5 * RATES.shaft, 0.0, in_load_zone), &RATES);
+        assert_eq!(found.part(), Some(BearingPart::InnerRace), "{snr}: {found:?}");
+    }
+}
+
 /// Twice 53.1 Hz lies in the search window of BPFO: the outer race is mentioned at most, not named.
 #[test]
 fn foreign_impacts_near_a_line_are_not_named() {

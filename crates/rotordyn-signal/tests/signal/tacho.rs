@@ -235,3 +235,60 @@ fn aliased_pulses_are_told_by_the_record() {
     assert!(train(900.0).unwrap().unresolved(2000.0).is_some_and(|samples| (samples - 2.22).abs() < 0.01));
     assert_eq!(train(400.0).unwrap().unresolved(2000.0), None);
 }
+
+/// Times of the pulses of a shaft of angle θ(t) = 2π(f t + a t²/2), one a turn, from its first to its last second.
+fn run_up(speed: f64, acceleration: f64, duration: f64) -> Vec<f64> {
+    let turns = speed * duration + 0.5 * acceleration * duration * duration;
+    (0..=turns as usize)
+        .map(|k| {
+            let k = k as f64;
+            2.0 * k / (speed + (speed * speed + 2.0 * acceleration * k).sqrt())
+        })
+        .collect()
+}
+
+/// Gaps of any length: the turns in them are those of the speeds on both sides.
+#[test]
+fn long_gaps_hold_the_turns_of_the_speeds_around_them() {
+    let times = run_up(10.0, 2.0, 20.0);
+    for length in [6, 8, 12, 20, 60] {
+        let gap = 200..200 + length;
+        let kept: Vec<f64> = (0..times.len()).filter(|k| !gap.contains(k)).map(|k| times[k]).collect();
+        let train = PulseTrain::new(&kept, 1).unwrap();
+        assert_eq!((train.missing, train.dropped), (length, 0));
+        let turns = train.revolutions[train.revolutions.len() - 1];
+        assert_eq!(turns, (times.len() - 1) as f64);
+        assert_eq!(train.implausible(kept.len()), None);
+        assert_eq!(train.gaps().len(), 1);
+        assert_eq!(train.gaps()[0].0, [times[199], times[200 + length]]);
+    }
+    // A shaft that stands between two runs has lost no pulses.
+    let first = run_up(20.0, -2.0, 9.9);
+    let rest = 40.0;
+    let mut both = first.clone();
+    both.extend(first.iter().rev().map(|t| rest - t));
+    let train = PulseTrain::new(&both, 1).unwrap();
+    assert!(train.gaps().is_empty(), "{:?}", train.gaps());
+}
+
+/// Every second pulse missing for a time is mended; for the rest of the record, or counted twice, it is refused.
+#[test]
+fn pulses_lost_or_doubled_one_by_one() {
+    let times = run_up(10.0, 2.0, 20.0);
+    let part: Vec<f64> =
+        (0..times.len()).filter(|k| k % 2 == 0 || !(200..260).contains(k)).map(|k| times[k]).collect();
+    let train = PulseTrain::new(&part, 1).unwrap();
+    assert_eq!((train.missing, train.dropped), (30, 0));
+    assert_eq!(train.implausible(part.len()), None);
+    let rest: Vec<f64> = (0..times.len()).filter(|k| k % 2 == 0 || *k < 300).map(|k| times[k]).collect();
+    let reason = PulseTrain::new(&rest, 1).unwrap().implausible(rest.len()).unwrap();
+    assert!(reason.contains("from one pulse to the next"), "{reason}");
+    let doubled: Vec<f64> = (0..times.len() - 1)
+        .flat_map(|k| {
+            let half = 0.5 * (times[k] + times[k + 1]);
+            if (200..300).contains(&k) { vec![times[k], half] } else { vec![times[k]] }
+        })
+        .collect();
+    let reason = PulseTrain::new(&doubled, 1).unwrap().implausible(doubled.len()).unwrap();
+    assert!(reason.contains("from one pulse to the next"), "{reason}");
+}

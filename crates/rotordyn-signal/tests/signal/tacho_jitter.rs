@@ -8,7 +8,7 @@ use rotordyn_signal::order_tracks::{OrderTrack, OrderTracks, order_tracks};
 use rotordyn_signal::tacho::{PulseTrain, lie_on_the_grid, rising_edges};
 use rotordyn_signal::tacho_jitter::{Jitter, amplitude_kept};
 
-use crate::sampled;
+use crate::{noise, sampled};
 
 /// An order of 0.7 beside one of 10 over the angle of jittered pulses: what is read there is wrong by the leak that the
 /// jitter of the pulses themselves tells, over many trains.
@@ -28,7 +28,7 @@ fn leak_of_a_strong_order_by_tacho_jitter() {
             .map(|(k, v)| (k as f64 + 0.5) / speed + 1e-4 * v)
             .collect();
         let train = PulseTrain::new(&times, 1).unwrap();
-        let jitter = Jitter::of_pulses(&train).unwrap().unwrap();
+        let jitter = Jitter::of_pulses(&train).unwrap();
         let expected = TAU * speed * 1e-4 / 3f64.sqrt();
         // Of 300 pulses: ± 4 % (one standard deviation).
         assert!((jitter.angle / expected - 1.0).abs() < 0.16, "{jitter:?} {expected}");
@@ -58,9 +58,9 @@ fn leak_of_a_strong_order_by_tacho_jitter() {
 #[test]
 fn no_leak_without_jitter() {
     let times: Vec<f64> = (0..40).map(|k| k as f64 / 25.0).collect();
-    let jitter = Jitter::of_pulses(&PulseTrain::new(&times, 1).unwrap()).unwrap().unwrap();
+    let jitter = Jitter::of_pulses(&PulseTrain::new(&times, 1).unwrap()).unwrap();
     assert!(jitter.angle < 1e-9, "{jitter:?}");
-    assert_eq!(Jitter::of_pulses(&PulseTrain::new(&times[..17], 1).unwrap()), Ok(None));
+    assert_eq!(Jitter::of_pulses(&PulseTrain::new(&times[..17], 1).unwrap()), None);
     let tracks = |orders: [f64; 2]| OrderTracks {
         times: vec![0.0],
         rpm: vec![1500.0],
@@ -91,7 +91,7 @@ fn a_coarse_tacho_lowers_high_orders() {
         let channel = sampled((10.0 * tacho_rate) as usize, tacho_rate, pulse);
         let train = PulseTrain::new(&rising_edges(&channel, tacho_rate, None, 0.2).unwrap(), 1).unwrap();
         assert!(lie_on_the_grid(&train.times, tacho_rate));
-        let jitter = Jitter::of_pulses(&train).unwrap().unwrap();
+        let jitter = Jitter::of_pulses(&train).unwrap();
         let kept = |train: &PulseTrain| {
             let (angle, first) = train.angle(5000.0, record.len()).unwrap();
             let mut tracker = OrderTracker::new(&angle, 5000.0, OrderSettings::new(0.05, 12.0)).unwrap();
@@ -109,4 +109,27 @@ fn a_coarse_tacho_lowers_high_orders() {
     // Pulses of a sine are interpolated.
     let sine = sampled(5000, 500.0, |t| (TAU * turns(t)).sin());
     assert!(!lie_on_the_grid(&rising_edges(&sine, 500.0, None, 0.2).unwrap(), 500.0));
+}
+
+/// A speed that swings by 10 % with a period of eight turns is no jitter of the pulses; jitter on it is found as without it.
+#[test]
+fn a_swinging_speed_is_no_jitter() {
+    let angle = |t: f64| {
+        25.0 * t - 25.0 * 0.1 / (std::f64::consts::TAU * 3.0) * (std::f64::consts::TAU * 3.0 * t).cos()
+    };
+    let deviation = 0.08;
+    let random = noise(11, 600);
+    let rms = (random.iter().map(|v| v * v).sum::<f64>() / 600.0).sqrt();
+    for jitter in [0.0, deviation] {
+        let times: Vec<f64> = (1..500)
+            .map(|k| {
+                let goal = k as f64 + random[k] * jitter / std::f64::consts::TAU;
+                let mut t = goal / 25.0;
+                (0..60).for_each(|_| t -= (angle(t) - goal) / 25.0);
+                t
+            })
+            .collect();
+        let found = Jitter::of_pulses(&PulseTrain::new(&times, 1).unwrap()).unwrap();
+        assert!((found.angle - rms * jitter).abs() < 0.12 * deviation, "{jitter}: {}", found.angle);
+    }
 }

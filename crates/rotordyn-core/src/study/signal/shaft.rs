@@ -80,7 +80,7 @@ impl ShaftMotion {
         source: String,
     ) -> Result<Self, SignalError> {
         // Smoothing over nine pulses leaves the slow part of the jitter, which comes close to an order.
-        let jitter = Jitter::of_pulses(train)?;
+        let jitter = Jitter::of_pulses(train);
         let mut angle_deviation = jitter.map_or(0.0, |jitter| jitter.angle);
         let smoothed;
         let train = match smoothing.map(|width| width.min(train.times.len().saturating_sub(1) / 2)) {
