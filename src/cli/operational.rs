@@ -6,7 +6,7 @@ use rotordyn::error::Error;
 use rotordyn::identify::operational::{OperationalSettings, OutputRecord, Shaft, identify_operational};
 use rotordyn::io::measured::run_up::{is_rotation_signal, quantity};
 use rotordyn::signal::Quantity;
-use rotordyn::signal::record::{Dof, Kind, MeasuredData, Record};
+use rotordyn::signal::record::{Dof, Kind, MeasuredData, Points, Record};
 use rotordyn::study::signal::SignalChannel;
 use rotordyn::units::SPEED;
 use rotordyn::warning::Code;
@@ -14,7 +14,7 @@ use rotordyn::warning::Code;
 use super::args::IdentifyArgs;
 use super::failure::Failure;
 use super::identified_file::{Identified, Modes};
-use super::signal::input::{File, InputProblems};
+use super::signal::input::{File, InputProblems, clipping_text, dropout_texts, is_stored_run};
 use super::signal::shaft_source::ShaftSource;
 use super::terminal::Terminal;
 
@@ -39,7 +39,7 @@ pub fn compute(
     terminal: &Terminal,
 ) -> Result<Identified, Failure> {
     let stem = super::measured::stem(path);
-    let file = File { path: path.into(), stem: stem.clone(), measured, stored_run: false };
+    let file = File { path: path.into(), stem: stem.clone(), measured, stored_run: is_stored_run(path) };
     let mut findings = InputProblems::default();
     let shaft = match &args.speed {
         Some(text) => findings.positive("--speed", text, SPEED).map_or(ShaftSource::Unknown, |speed| {
@@ -62,6 +62,7 @@ pub fn compute(
     let found = identify_operational(&record, &settings);
     spinner.finish_and_clear();
     findings.warnings.iter().for_each(|text| terminal.warn_of(Code::MeasuredData, text.clone()));
+    findings.coded.into_iter().for_each(|(code, text)| terminal.warn_of(code, text));
     let found = terminal.unless_stopped(
         found.map_err(|error| Failure::Input(format!("{}: {}", path.display(), Error::from(error)))),
     )?;
@@ -105,6 +106,39 @@ fn chosen<'a>(args: &IdentifyArgs, file: &'a File, findings: &mut InputProblems)
     vibration
 }
 
+/// What is said of a channel that is clipped, dead, or has gaps: combinations of its modes are taken for modes.
+fn faults(record: &Record, sample_rate: f64, samples: &[f64]) -> Vec<(Code, String)> {
+    if samples.iter().any(|v| !v.is_finite()) {
+        // Refused by the identification.
+        return Vec::new();
+    }
+    let channel = SignalChannel {
+        name: record.name.clone(),
+        unit: record.unit.clone(),
+        sample_rate,
+        start: start_of(record),
+        samples: samples.to_vec(),
+        orthogonal: None,
+    };
+    let clipped = clipping_text(&channel)
+        .map(|text| (Code::ClippedRecord, format!("{text}, and combinations of modes are taken for modes")));
+    let gaps = dropout_texts(&channel).into_iter().map(|(code, text)| match code {
+        Code::RecordGap => {
+            (code, format!("{text}: modes may be found twice; leave the channel out, or cut the record"))
+        }
+        _ => (code, text),
+    });
+    clipped.into_iter().chain(gaps).collect()
+}
+
+/// Time of the first sample \[s\].
+fn start_of(record: &Record) -> f64 {
+    match record.axis.points {
+        Points::Uniform { start, .. } => start,
+        _ => 0.0,
+    }
+}
+
 /// The vibration channels, recorded together, and the time of the first sample.
 fn channels(args: &IdentifyArgs, file: &File, findings: &mut InputProblems) -> Option<(OutputRecord, f64)> {
     let list = chosen(args, file, findings);
@@ -126,7 +160,12 @@ fn channels(args: &IdentifyArgs, file: &File, findings: &mut InputProblems) -> O
             Some(_) => {}
             None => rate = Some((own, &record.name)),
         }
-        samples.push(findings.value_or_problem("", record.time_samples())?.to_vec());
+        let own_samples = findings.value_or_problem("", record.time_samples())?.to_vec();
+        // What is computed has no sensors.
+        if !file.stored_run {
+            findings.coded.extend(faults(record, own, &own_samples));
+        }
+        samples.push(own_samples);
         dofs.push(match record.response.node {
             0 => {
                 next += 1;
@@ -143,10 +182,7 @@ fn channels(args: &IdentifyArgs, file: &File, findings: &mut InputProblems) -> O
             numbered.join(", ")
         ));
     }
-    let start = match list.first()?.axis.points {
-        rotordyn::signal::record::Points::Uniform { start, .. } => start,
-        _ => 0.0,
-    };
+    let start = start_of(list.first()?);
     Some((OutputRecord { samples, sample_rate: rate?.0, dofs, quantities }, start))
 }
 

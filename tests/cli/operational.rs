@@ -211,3 +211,26 @@ fn rig_in_operation_with_a_run_up() {
         "profile = \"ramp\"\nto = \"1200 rpm\"\nsettle = \"1 s\"\nramp = \"10 s\"\nhold = \"589 s\"",
     );
 }
+
+/// A clipped channel, and one that stands for a time: modes of theirs are none of the machine's, and the channel is named.
+#[test]
+fn clipped_and_interrupted_channels_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let made = |change: &dyn Fn(&mut [f64])| {
+        let mut records = record();
+        let mut values = records[1].time_samples().unwrap().to_vec();
+        change(&mut values);
+        records[1] =
+            Record { response: records[1].response, ..Record::samples("v2", RATE, 0.0, values, "m/s") };
+        write(folder, "run.uff", records);
+        let document = identified(folder, &["--no-figures"]);
+        let warnings = document["warnings"].as_array().unwrap().iter();
+        warnings.map(|w| format!("{} {}", w["code"], w["text"])).collect::<Vec<String>>()
+    };
+    assert!(!made(&|_| ()).iter().any(|w| w.contains("clipped-record") || w.contains("record-gap")));
+    let clipped = made(&|values| values.iter_mut().for_each(|v| *v = v.clamp(-45.0, 45.0)));
+    assert!(clipped.iter().any(|w| w.contains("clipped-record") && w.contains("`v2`")), "{clipped:?}");
+    let held = made(&|values| values[10_000..20_000].fill(3.5));
+    assert!(held.iter().any(|w| w.contains("record-gap") && w.contains("`v2`")), "{held:?}");
+}

@@ -115,6 +115,11 @@ pub struct File {
     pub stored_run: bool,
 }
 
+/// Whether a file holds a computed run, by its name.
+pub fn is_stored_run(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name == store::FILE || name == store::UNFINISHED)
+}
+
 impl File {
     /// Reads a file; the rate of a flag holds where the file states two that differ.
     pub fn read(path: &Path, rate: Option<&str>) -> Result<File, Failure> {
@@ -124,8 +129,7 @@ impl File {
             .filter(|rate| *rate > 0.0 && rate.is_finite());
         let path = if path.is_dir() { newest_results(path) } else { path.to_path_buf() };
         let measured = measured::read_at_rate(&path, limits(), given_rate)?;
-        let stored_run =
-            path.file_name().is_some_and(|name| name == store::FILE || name == store::UNFINISHED);
+        let stored_run = is_stored_run(&path);
         let named = if stored_run { path.parent().unwrap_or(&path) } else { &path };
         let stem = if stored_run { named.file_name() } else { named.file_stem() };
         let stem = stem.map_or_else(|| "record".into(), |s| s.to_string_lossy().into_owned());
