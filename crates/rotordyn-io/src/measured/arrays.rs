@@ -9,7 +9,7 @@
 use std::collections::HashMap;
 
 pub use super::array::{Array, Data};
-use super::axis_names::six_digits;
+use super::axis_names::{Role, six_digits};
 use super::content_problem::ContentProblem;
 use super::structures::{Axes, AxisList, Structures, last_name};
 use super::{ramps, signal_calc, unit_label};
@@ -33,7 +33,7 @@ pub(crate) fn to_records(
     if arrays.iter().any(|a| a.name == signal_calc::INFO_ARRAY) {
         return Ok(signal_calc::to_records(arrays, budget)?);
     }
-    let file = File { structures: Structures::new(arrays, given_rate) };
+    let file = File { structures: Structures::new(arrays, given_rate)? };
     let mut out = MeasuredData::default();
     if let Some(title) = file.structures.get_used("title").and_then(Array::as_text) {
         out.title = title.into();
@@ -268,8 +268,10 @@ struct Slice {
 fn rate_of(array: &Array) -> Option<f64> {
     let (value, si) = array.as_stated()?;
     let rate = match si {
-        Some(si) if si.name == "Hz" => value * si.numerator / si.divisor,
-        Some(_) => return None,
+        Some(si) => {
+            let (numerator, divisor) = Role::Rate.factor(&si)?;
+            if numerator == divisor { value } else { value * numerator / divisor }
+        }
         None => value,
     };
     (rate > 0.0 && rate.is_finite()).then_some(rate)
