@@ -4,7 +4,7 @@
 //! between quotes. A table has one decimal sign, a point or a comma, and the other mark stands between groups of thousands:
 //! all numbers of the table decide which it is, or a line `# decimal sign: ,`. Lines that begin with `#`, `%` or `//` are comments. Names
 //! may contain units, `B_ax_m_s2`, `acc [g]`, `time (ms)`, `a / m/s²`, or a line of units follows them. Columns `x_re`,
-//! `x_im` are one complex record; cells may be complex, `(1.0-2.0j)`. The axis is a column of times or frequencies, of
+//! `x_im` are one complex record, as are magnitudes or levels with their phases over frequency; cells may be complex, `(1.0-2.0j)`. The axis is a column of times or frequencies, of
 //! dates, the first column of a table without names if it increases uniformly, or the rate that a line states.
 
 use std::collections::{HashMap, HashSet};
@@ -16,7 +16,7 @@ use super::encoding::decoded;
 use super::settings::stated;
 use super::style::TableStyle;
 use super::written_digits::Digits;
-use super::{decimal_sign, lvm, table_axis};
+use super::{decimal_sign, lvm, polar, table_axis};
 use crate::budget::{self, Budget, Exceeded, Limits};
 use crate::error::{Error, snippet};
 use crate::measured::arrays::guess_kind;
@@ -187,6 +187,9 @@ fn parse(
     }
     let source = table_axis::Source { settings, sign, times, nameless, given_rate };
     let axis = table_axis::of_table(&mut columns, source, budget, &mut out)?;
+    if axis.is_frequency() {
+        out.notes.extend(polar::join(&mut columns));
+    }
     records(columns, &axis, &mut out);
     out.records.iter_mut().for_each(|record| record.date.clone_from(&date));
     Ok(out)

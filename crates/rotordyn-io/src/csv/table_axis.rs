@@ -33,6 +33,10 @@ pub(super) struct TableAxis {
 }
 
 impl TableAxis {
+    pub fn is_frequency(&self) -> bool {
+        matches!(self.points, Some((AxisQuantity::Frequency, _)))
+    }
+
     /// The axis of a column of some length.
     pub fn of(&self, length: usize) -> Axis {
         match (&self.points, self.uniform) {

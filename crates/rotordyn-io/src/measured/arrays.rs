@@ -12,7 +12,7 @@ pub use super::array::{Array, Data};
 use super::axis_names::{Role, six_digits};
 use super::content_problem::ContentProblem;
 use super::structures::{Axes, AxisList, Structures, last_name};
-use super::{ramps, signal_calc, unit_label};
+use super::{coherence_names, ramps, signal_calc, unit_label};
 use crate::budget::Budget;
 use crate::error::snippet;
 use rotordyn_signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Points, Record, Values};
@@ -301,7 +301,9 @@ pub(crate) fn guess_kind(name: &str, values: &Values, axis: AxisQuantity) -> Kin
     let begins = |heads: &[&str]| heads.iter().any(|head| name.starts_with(head));
     match (axis, values) {
         (AxisQuantity::Frequency, Values::Complex(_)) => Kind::Frf,
-        (AxisQuantity::Frequency, _) if begins(&["coh", "gamma"]) => Kind::Coherence,
+        (AxisQuantity::Frequency, _) if begins(&["gamma"]) || coherence_names::is_coherence(&name) => {
+            Kind::Coherence
+        }
         (AxisQuantity::Frequency, _) if begins(&["psd", "pxx", "gxx", "sxx"]) => Kind::Psd,
         (AxisQuantity::Frequency, _) => Kind::Spectrum,
         (_, Values::Complex(_)) => Kind::General,

@@ -4,6 +4,7 @@ mod arrays;
 #[cfg(feature = "hdf5")]
 mod axis_units;
 mod dialects;
+mod polar_frfs;
 mod tables;
 
 use rotordyn_io::budget::Limits;
