@@ -37,6 +37,7 @@ const MAX_JITTER: f64 = 0.02;
 
 impl Data {
     pub fn new(frfs: &FrfMatrix, settings: &Settings) -> Result<Self, IdentifyError> {
+        check_motion_over_force(frfs)?;
         let f = &frfs.frequencies;
         let (first, last) = (f.first().copied().unwrap_or(0.0), f.last().copied().unwrap_or(0.0));
         let [from, to] = settings.band.unwrap_or([first, last]);
@@ -288,6 +289,32 @@ pub(super) fn noise_rms(frf: &[Complex64]) -> f64 {
     let middle = all.len() / 2;
     let median = *all.select_nth_unstable_by(middle, f64::total_cmp).1;
     (median / (20.0 * std::f64::consts::LN_2)).sqrt()
+}
+
+/// Refuses FRFs whose unit is that of force over motion.
+fn check_motion_over_force(frfs: &FrfMatrix) -> Result<(), IdentifyError> {
+    for (response, row) in frfs.responses.iter().zip(&frfs.units) {
+        if let Some((reference, unit)) =
+            frfs.references.iter().zip(row).find(|(_, unit)| is_force_over_motion(unit))
+        {
+            return Err(IdentifyError::ForceOverMotion {
+                response: response.to_string(),
+                reference: reference.to_string(),
+                unit: unit.clone(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Whether an SI unit is that of a dynamic stiffness, a mechanical impedance or an apparent mass: "N/m", "kg s^-1", "kg",
+/// and those of rotations.
+pub fn is_force_over_motion(unit: &str) -> bool {
+    let of_force = ["N/", "(N)/", "N m/", "(N m)/"].iter().any(|start| unit.starts_with(start));
+    let bases: Vec<&str> = unit.split(' ').collect();
+    // In base units a force has a mass; electrical units have one too.
+    let of_mass = bases.contains(&"kg") && !bases.iter().any(|base| base.starts_with(['V', 'K']));
+    of_force || of_mass
 }
 
 /// Power of jω of every FRF: as set, else by its unit, else accelerance, usual in impact tests.

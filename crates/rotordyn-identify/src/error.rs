@@ -23,6 +23,10 @@ pub enum IdentifyError {
     )]
     NotFinite { response: String, reference: String, frequency: f64 },
     #[error(
+        "the FRF of response {response} to reference {reference} is in {unit}: force over motion (dynamic stiffness, mechanical impedance or apparent mass), whose peaks are antiresonances; give motion over force (receptance, mobility or accelerance), of a single FRF its reciprocal, of several the inverse of their matrix at every frequency"
+    )]
+    ForceOverMotion { response: String, reference: String, unit: String },
+    #[error(
         "response {response} is zero over the whole band: a dead channel; leave it out (of the file or of the mapping)"
     )]
     DeadResponse { response: String },

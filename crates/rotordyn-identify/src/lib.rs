@@ -51,7 +51,7 @@ mod uncertainty;
 mod whirl;
 mod window;
 
-pub use data::quantity_of;
+pub use data::{is_force_over_motion, quantity_of};
 pub use error::IdentifyError;
 pub use result::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning, Stability};
 pub use settings::{ResidualTerms, Settings};

@@ -5,6 +5,7 @@ mod date_time;
 mod decimal_sign;
 pub(crate) mod encoding;
 mod lvm;
+mod polar;
 mod read;
 mod settings;
 mod style;

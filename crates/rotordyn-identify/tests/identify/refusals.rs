@@ -70,3 +70,21 @@ fn a_request_ends_the_identification() {
     let message = error_message(|_, settings| settings.stop.request());
     assert_eq!(message, "the identification was stopped");
 }
+
+#[test]
+fn force_over_motion_is_refused() {
+    // Dynamic stiffness, mechanical impedance, apparent mass; of a rotation.
+    for unit in ["N/m", "kg s^-1", "kg", "m^2 kg s^-2 rad^-1", "N m/rad"] {
+        let text = error_message(|made, _| made.units[1][0] = unit.into());
+        assert!(
+            text.contains(&format!("response 2:+y to reference 1:+y is in {unit}: force over motion")),
+            "{text}"
+        );
+        assert!(text.contains("reciprocal") && text.contains("inverse of their matrix"), "{text}");
+    }
+    for unit in ["m/N", "(m/s)/N", "(m/s^2)/N", "rad/(N m)", "", "(m/s^2)/V", "m kg^-1"] {
+        let mut made = good();
+        made.units.iter_mut().flatten().for_each(|own| *own = unit.into());
+        assert!(identify(&made, &Settings::default()).is_ok(), "{unit}");
+    }
+}

@@ -3,6 +3,8 @@
 use super::style::{Cell, TableStyle};
 use super::written_digits::Digits;
 use crate::measured::axis_names::{Meaning, Role, meaning};
+use crate::measured::axis_units;
+use crate::measured::content_problem::ContentProblem;
 use crate::measured::name_unit;
 use crate::measured::unit_label::{self, SiUnit};
 use rotordyn_signal::Complex;
@@ -60,25 +62,38 @@ impl Column {
             && self.re.first() < self.re.last()
     }
 
-    /// Quantity of the axis that the column is, by its name and unit; `None` if it is none.
-    pub fn axis(&self) -> Option<AxisQuantity> {
-        let unit = self.si.as_ref().map(|si| si.name.as_str());
+    /// Quantity of the axis that the column is, by its name and unit, with the factor and the divisor to s or Hz; `None` if
+    /// it is none.
+    pub fn axis(&self) -> Option<(AxisQuantity, (f64, f64))> {
+        let quantity = |role| if role == Role::Times { AxisQuantity::Time } else { AxisQuantity::Frequency };
+        let unit = self.axis_unit();
         if self.name.eq_ignore_ascii_case("x") {
-            return match unit {
-                Some("s") => Some(AxisQuantity::Time),
-                Some("Hz") => Some(AxisQuantity::Frequency),
-                _ => None,
-            };
+            let unit = unit?;
+            let factor = |role: Role| Some((quantity(role), role.factor(&unit)?));
+            return factor(Role::Times).or_else(|| factor(Role::Frequencies).filter(|_| unit.name == "Hz"));
         }
         let meaning = meaning(&self.name, &[Role::Times, Role::Frequencies])?;
-        let fits = match (unit, self.stated.as_str()) {
-            (Some(unit), _) => meaning.role.takes_unit(unit),
+        let factor = match &unit {
+            Some(unit) => meaning.role.factor(unit)?,
             // A column `f` of no unit may be a force, which does not increase.
-            (None, "") => meaning.role == Role::Times || self.increases(),
-            (None, _) => false,
+            None if !self.stated.is_empty() || meaning.role != Role::Times && !self.increases() => {
+                return None;
+            }
+            None => (1.0, 1.0),
         };
-        let quantity = if meaning.role == Role::Times { AxisQuantity::Time } else { AxisQuantity::Frequency };
-        fits.then_some(quantity)
+        Some((quantity(meaning.role), factor))
+    }
+
+    /// The unit of an axis or a rate.
+    fn axis_unit(&self) -> Option<SiUnit> {
+        axis_units::si(&self.stated).or_else(|| self.si.clone())
+    }
+
+    /// Why a column that is an axis by its name and values is none: its unit is not known.
+    pub fn axis_problem(&self) -> Option<ContentProblem> {
+        let meaning = meaning(&self.name, &[Role::Times, Role::Frequencies])?;
+        let unknown = !meaning.uncertain && self.axis_unit().is_none() && self.increases();
+        meaning.role.factor_of_label(&self.stated, &self.name).err().filter(|_| unknown)
     }
 
     /// The rate, the step or the number of samples that the column states, if all its values are the same.
@@ -86,15 +101,13 @@ impl Column {
         let mut meaning = meaning(&self.name, &[Role::Rate, Role::Step, Role::Count])?;
         let mut values = self.re[..self.length].iter().filter(|v| !v.is_nan());
         let first = *values.next()?;
-        let fits = match &self.si {
-            Some(si) => {
-                (meaning.numerator, meaning.divisor) = (si.numerator, si.divisor);
-                meaning.role.takes_unit(&si.name)
-            }
-            None => self.stated.is_empty(),
-        };
+        match self.axis_unit() {
+            Some(si) => (meaning.numerator, meaning.divisor) = meaning.role.factor(&si)?,
+            None if !self.stated.is_empty() => return None,
+            None => {}
+        }
         let constant = self.im.is_empty() && values.all(|v| *v == first);
-        (fits && constant && !meaning.uncertain).then_some((meaning, first))
+        (constant && !meaning.uncertain).then_some((meaning, first))
     }
 }
 
@@ -113,7 +126,7 @@ pub(super) fn columns(
         let mut cells: Vec<String> = match style.separator {
             // Names may contain blanks; then commas separate them.
             ' ' if line.contains(',') => line.split(',').map(|c| c.trim().to_owned()).collect(),
-            _ => style.split(line).into_iter().map(str::to_owned).collect(),
+            _ => style.split(line).into_iter().map(|cell| cell.replace("\"\"", "\"")).collect(),
         };
         // Date and time in two cells have often one name, and lines may end in a separator.
         if style.stamps > 1 && cells.len() + style.stamps - 1 == width {

@@ -58,7 +58,7 @@ pub(super) fn parse(text: &str, budget: &Budget) -> Result<MeasuredData, Content
     let mut out = MeasuredData::default();
     let mut comments = 0_usize;
     let header = file_header(&mut lines, &mut out);
-    let style = TableStyle { separator: header.separator, decimal_comma: header.decimal_comma, stamps: 0 };
+    let style = TableStyle::new(header.separator, header.decimal_comma);
     let mut open: Vec<Channel> = Vec::new();
     let mut rows: Vec<Row> = Vec::new();
     // None within a header.

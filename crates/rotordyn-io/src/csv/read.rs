@@ -1,9 +1,10 @@
 //! Reads CSV and other text tables, of this and other programs, as records.
 //!
-//! The separator (comma, semicolon, tab or blanks) is the one that splits the first data line into numbers; a
-//! decimal comma is accepted with the other three. Lines that begin with `#`, `%` or `//` are comments. Names
+//! The separator (comma, semicolon, tab or blanks) is the one that splits the first data line into numbers; cells may be
+//! between quotes. A table has one decimal sign, a point or a comma, and the other mark stands between groups of thousands:
+//! all numbers of the table decide which it is, or a line `# decimal sign: ,`. Lines that begin with `#`, `%` or `//` are comments. Names
 //! may contain units, `B_ax_m_s2`, `acc [g]`, `time (ms)`, `a / m/s²`, or a line of units follows them. Columns `x_re`,
-//! `x_im` are one complex record; cells may be complex, `(1.0-2.0j)`. The axis is a column of times or frequencies, of
+//! `x_im` are one complex record, as are magnitudes or levels with their phases over frequency; cells may be complex, `(1.0-2.0j)`. The axis is a column of times or frequencies, of
 //! dates, the first column of a table without names if it increases uniformly, or the rate that a line states.
 
 use std::collections::{HashMap, HashSet};
@@ -15,7 +16,7 @@ use super::encoding::decoded;
 use super::settings::stated;
 use super::style::TableStyle;
 use super::written_digits::Digits;
-use super::{lvm, table_axis};
+use super::{decimal_sign, lvm, polar, table_axis};
 use crate::budget::{self, Budget, Exceeded, Limits};
 use crate::error::{Error, snippet};
 use crate::measured::arrays::guess_kind;
@@ -66,6 +67,11 @@ fn check_width(line: &str, budget: &Budget) -> Result<(), Exceeded> {
     cells.max().map_or(Ok(()), |most| budget.check_objects("columns", most))
 }
 
+/// Whether a line states a rate, a step or the decimal sign.
+fn is_setting(line: &str) -> bool {
+    stated(line).is_some() || decimal_sign::stated_sign(line).is_some()
+}
+
 fn is_comment(line: &str) -> bool {
     line.starts_with(['#', '%']) || line.starts_with("//")
 }
@@ -102,11 +108,12 @@ fn parse(
         before.push(line);
     };
     let settings: Vec<_> = before.iter().filter_map(|line| stated(line)).collect();
-    let last_comment = before.last().copied().filter(|line| is_comment(line) && stated(line).is_none());
+    let last_comment = before.last().copied().filter(|line| is_comment(line) && !is_setting(line));
     let header_lines: Vec<&str> =
-        before.iter().copied().filter(|line| !is_comment(line) && stated(line).is_none()).collect();
+        before.iter().copied().filter(|line| !is_comment(line) && !is_setting(line)).collect();
+    let stated_sign = before.iter().find_map(|line| decimal_sign::stated_sign(line));
     let numbers = data.clone().map(|(_, line)| line).filter(|line| !is_comment(line));
-    let style = style.with_decimal_sign(numbers, header_lines.last().copied())?;
+    let style = style.with_decimal_sign(numbers, header_lines.last().copied(), stated_sign)?;
     let width = style.split(first).len();
     budget.objects("columns", width)?;
     let (mut columns, used) = columns(&header_lines, last_comment, style, width, stem);
@@ -116,7 +123,7 @@ fn parse(
     if let Some(first) = columns.first_mut().filter(|_| nameless) {
         first.digits = Some(Digits::default());
     }
-    let mut sign = if style.decimal_comma { Some(',') } else { None };
+    let mut sign = if style.decimal_comma { Some(',') } else { stated_sign };
     let mut stamps = Vec::new();
     for (number, line) in data.filter(|(_, line)| !is_comment(line)) {
         let mut cells = style.split(line);
@@ -153,8 +160,11 @@ fn parse(
                     FORMAT_HINT,
                 )
             })?;
-            column.push(value, cell);
-            if sign.is_none() && cell.contains('.') {
+            match style.groups {
+                true => column.push(value, &style.plain(cell).unwrap_or_default()),
+                false => column.push(value, cell),
+            }
+            if sign.is_none() && cell.contains(['.', ',']) {
                 sign = Some('.');
             }
         }
@@ -172,11 +182,14 @@ fn parse(
         date = style.split(first)[..style.stamps].join(" ");
         times = Some(seconds(&stamps)?);
     }
-    if style.separator == ',' {
+    if style.separator == ',' && !style.decimal_comma {
         sign = Some('.');
     }
     let source = table_axis::Source { settings, sign, times, nameless, given_rate };
     let axis = table_axis::of_table(&mut columns, source, budget, &mut out)?;
+    if axis.is_frequency() {
+        out.notes.extend(polar::join(&mut columns));
+    }
     records(columns, &axis, &mut out);
     out.records.iter_mut().for_each(|record| record.date.clone_from(&date));
     Ok(out)
@@ -187,7 +200,7 @@ fn unread_lines(before: &[&str], header_lines: &[&str], used: &[usize], comment:
     let used: Vec<&str> = used.iter().map(|&k| header_lines[k]).collect();
     let last = before.len().saturating_sub(1);
     let is_used = |k: usize, line: &str| {
-        used.iter().any(|used| std::ptr::eq(*used, line)) || (comment && k == last) || stated(line).is_some()
+        used.iter().any(|used| std::ptr::eq(*used, line)) || (comment && k == last) || is_setting(line)
     };
     let mut unread = before
         .iter()

@@ -2,6 +2,7 @@
 
 use super::columns::column;
 use crate::measured::axis_names::{Meaning, Role, meaning};
+use crate::measured::axis_units;
 use crate::measured::stated_value::{Written, stated_value};
 
 /// Longest line that states something \[bytes\].
@@ -12,6 +13,8 @@ pub(super) struct Setting {
     pub meaning: Meaning,
     pub name: String,
     pub value: Written,
+    /// A unit in the name that is not known.
+    pub unknown_unit: Option<String>,
 }
 
 /// What a line states, with its name and number; `None` if nothing that is understood.
@@ -25,14 +28,18 @@ pub(super) fn stated(line: &str) -> Option<Setting> {
     let key = column(key.trim().trim_matches('"'));
     let mut meaning = meaning(&key.name, &[Role::Rate, Role::Step, Role::Start, Role::Count])?;
     let (value, own) = stated_value(value)?;
-    let si = own.or(key.si);
-    if let Some(si) = si {
-        if !meaning.role.takes_unit(&si.name) {
-            return None;
-        }
-        (meaning.numerator, meaning.divisor) = (si.numerator, si.divisor);
+    let mut unknown_unit = None;
+    match own.or_else(|| axis_units::si(&key.stated)).or(key.si) {
+        Some(si) => (meaning.numerator, meaning.divisor) = meaning.role.factor(&si)?,
+        // Words are no unit: "Sampling rate (per channel)".
+        None if key.stated.is_empty() || is_text(&key.stated) => {}
+        None => unknown_unit = Some(key.stated),
     }
-    Some(Setting { meaning, name: key.name, value })
+    Some(Setting { meaning, name: key.name, value, unknown_unit })
+}
+
+fn is_text(label: &str) -> bool {
+    label.contains(' ') && !label.contains('/')
 }
 
 #[cfg(test)]
@@ -43,7 +50,7 @@ mod tests {
     #[test]
     fn lines_that_state_a_rate() {
         let rate = |line: &str| {
-            let Setting { meaning, name, value } = stated(line)?;
+            let Setting { meaning, name, value, .. } = stated(line)?;
             let value = value.definite().expect("a number of one reading");
             StatedRate::of(&meaning, &name, value).map(|stated| stated.rate)
         };
@@ -58,10 +65,18 @@ mod tests {
             "Abtastrate: 12 kHz",
             "Sample rate = 12000 S/s",
             "fs: 1.2e4",
+            "Sampling rate [kS/s]: 12",
+            "Sample rate: 12 kSa/s",
+            "Sample rate: 12 ksps",
+            "Sampling rate (per channel): 12000",
+            "Sampling rate [MHz]: 0.012",
+            "Sampling rate [cpm]: 720000",
         ] {
             assert_eq!(rate(line), Some(12_000.0), "{line}");
         }
-        for line in ["dt: 0.5 ms", "Time step;0,0005;s", "Delta_X\t5.0E-4", "dt [ms] = 0.5"] {
+        for line in
+            ["dt: 0.5 ms", "Time step;0,0005;s", "Delta_X\t5.0E-4", "dt [ms] = 0.5", "dt [s/1000]: 0.5"]
+        {
             let found = rate(line).unwrap_or_else(|| panic!("{line}"));
             assert!((found / 2000.0 - 1.0).abs() < 1e-15, "{line}: {found}");
         }

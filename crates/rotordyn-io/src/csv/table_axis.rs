@@ -33,6 +33,10 @@ pub(super) struct TableAxis {
 }
 
 impl TableAxis {
+    pub fn is_frequency(&self) -> bool {
+        matches!(self.points, Some((AxisQuantity::Frequency, _)))
+    }
+
     /// The axis of a column of some length.
     pub fn of(&self, length: usize) -> Axis {
         match (&self.points, self.uniform) {
@@ -69,6 +73,14 @@ pub(super) fn of_table(
         Some(times) => Some(Listed::new(AxisQuantity::Time, times, "dates".into(), None)),
         None => axis_column(columns, source.nameless, out),
     };
+    let states_rate = source_rate.is_some()
+        || source.settings.iter().any(|s| matches!(s.meaning.role, Role::Rate | Role::Step));
+    if listed.is_none()
+        && !states_rate
+        && let Some(problem) = columns.iter().find_map(Column::axis_problem)
+    {
+        return Err(problem);
+    }
     let step = listed.as_ref().and_then(|listed| listed.step);
     let mut settings = numbers(source.settings, source.sign, step, source_rate, &mut out.notes)?;
     settings.append(&mut repeated);
@@ -215,12 +227,13 @@ fn axis_column(columns: &mut Vec<Column>, nameless: bool, out: &mut MeasuredData
     if columns.len() < 2 {
         return None;
     }
-    let of = |quantity: AxisQuantity| columns.iter().position(|column| column.axis() == Some(quantity));
+    let of = |quantity: AxisQuantity| {
+        columns.iter().position(|column| column.axis().is_some_and(|(of, _)| of == quantity))
+    };
     // Beside times `f` is a force.
     if let Some(at) = of(AxisQuantity::Time).or_else(|| of(AxisQuantity::Frequency)) {
         let column = columns.remove(at);
-        let quantity = column.axis().unwrap_or_default();
-        let (up, down) = column.si.as_ref().map_or((1.0, 1.0), |si| (si.numerator, si.divisor));
+        let (quantity, (up, down)) = column.axis().unwrap_or((AxisQuantity::Time, (1.0, 1.0)));
         let si = |v: f64| if up == down { v } else { v * up / down };
         let points = column.re.iter().copied().map(si).collect();
         let rounded = column.digits.and_then(|digits| rounded_step(&column.re, &digits));

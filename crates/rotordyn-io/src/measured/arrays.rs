@@ -9,10 +9,10 @@
 use std::collections::HashMap;
 
 pub use super::array::{Array, Data};
-use super::axis_names::six_digits;
+use super::axis_names::{Role, six_digits};
 use super::content_problem::ContentProblem;
 use super::structures::{Axes, AxisList, Structures, last_name};
-use super::{ramps, signal_calc, unit_label};
+use super::{coherence_names, ramps, signal_calc, unit_label};
 use crate::budget::Budget;
 use crate::error::snippet;
 use rotordyn_signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Points, Record, Values};
@@ -33,7 +33,7 @@ pub(crate) fn to_records(
     if arrays.iter().any(|a| a.name == signal_calc::INFO_ARRAY) {
         return Ok(signal_calc::to_records(arrays, budget)?);
     }
-    let file = File { structures: Structures::new(arrays, given_rate) };
+    let file = File { structures: Structures::new(arrays, given_rate)? };
     let mut out = MeasuredData::default();
     if let Some(title) = file.structures.get_used("title").and_then(Array::as_text) {
         out.title = title.into();
@@ -268,8 +268,10 @@ struct Slice {
 fn rate_of(array: &Array) -> Option<f64> {
     let (value, si) = array.as_stated()?;
     let rate = match si {
-        Some(si) if si.name == "Hz" => value * si.numerator / si.divisor,
-        Some(_) => return None,
+        Some(si) => {
+            let (numerator, divisor) = Role::Rate.factor(&si)?;
+            if numerator == divisor { value } else { value * numerator / divisor }
+        }
         None => value,
     };
     (rate > 0.0 && rate.is_finite()).then_some(rate)
@@ -299,7 +301,9 @@ pub(crate) fn guess_kind(name: &str, values: &Values, axis: AxisQuantity) -> Kin
     let begins = |heads: &[&str]| heads.iter().any(|head| name.starts_with(head));
     match (axis, values) {
         (AxisQuantity::Frequency, Values::Complex(_)) => Kind::Frf,
-        (AxisQuantity::Frequency, _) if begins(&["coh", "gamma"]) => Kind::Coherence,
+        (AxisQuantity::Frequency, _) if begins(&["gamma"]) || coherence_names::is_coherence(&name) => {
+            Kind::Coherence
+        }
         (AxisQuantity::Frequency, _) if begins(&["psd", "pxx", "gxx", "sxx"]) => Kind::Psd,
         (AxisQuantity::Frequency, _) => Kind::Spectrum,
         (_, Values::Complex(_)) => Kind::General,

@@ -142,8 +142,9 @@ pub(crate) fn meaning(name: &str, roles: &[Role]) -> Option<Meaning> {
     };
     find(name, 1.0, 1.0).or_else(|| {
         let (base, si) = unit_label::split_unit_suffix(name)?;
-        let found = find(base, si.numerator, si.divisor)?;
-        found.role.takes_unit(&si.name).then_some(found)
+        let found = find(base, 1.0, 1.0)?;
+        let (numerator, divisor) = found.role.factor(&si)?;
+        Some(Meaning { numerator, divisor, ..found })
     })
 }
 
@@ -152,17 +153,6 @@ impl Meaning {
     pub fn in_si(&self, value: f64) -> f64 {
         // A ratio of 1 keeps the value bit by bit.
         if self.numerator == self.divisor { value } else { value * self.numerator / self.divisor }
-    }
-}
-
-impl Role {
-    /// Whether a value of this SI unit may be stated.
-    pub fn takes_unit(self, unit: &str) -> bool {
-        match self {
-            Role::Rate | Role::Frequencies => unit == "Hz",
-            Role::Step | Role::Start | Role::Times => unit == "s",
-            Role::Count => unit == "1",
-        }
     }
 }
 

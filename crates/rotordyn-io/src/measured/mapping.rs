@@ -24,7 +24,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::unit_label;
+use super::{coherence_names, unit_label};
 use crate::budget::{self, Limits};
 use crate::error::Error;
 use rotordyn_signal::record::{AttachedPoint, Dof, Geometry, Kind, MeasuredData, Record};
@@ -160,13 +160,16 @@ impl Mapping {
             }
         }
 
+        let frfs = measured.records.iter().filter(|r| r.kind == Kind::Frf).map(|r| r.name.clone());
+        let frfs: Vec<String> = frfs.collect();
         let mut mapped = Vec::new();
         let mut left_out = Vec::new();
         let mut mounts = std::mem::take(&mut measured.geometry.attached_points);
         for mut record in std::mem::take(&mut measured.records) {
             // A coherence is placed like its FRF, whose problems have already been reported.
             let own = self.channel.get(&record.name);
-            let of_frf = record.name.strip_prefix("coherence ").filter(|_| record.kind == Kind::Coherence);
+            let is_coherence = record.kind == Kind::Coherence;
+            let of_frf = if is_coherence { coherence_names::frf_of(&record.name, &frfs) } else { None };
             let entry = own.or_else(|| self.channel.get(of_frf?));
             let mut reported = Vec::new();
             let problems = if own.is_none() && entry.is_some() { &mut reported } else { &mut problems };

@@ -13,6 +13,8 @@
 pub(crate) mod array;
 pub mod arrays;
 pub(crate) mod axis_names;
+pub(crate) mod axis_units;
+mod coherence_names;
 pub(crate) mod content_problem;
 #[cfg(feature = "hdf5")]
 mod hdf5_arrays;

@@ -74,7 +74,7 @@ fn is_composed(unit: &str) -> bool {
 /// Whether a single word behind a blank is the unit: "Weg mm", "acc g", "Time s", but not "Sensor V" (vertical).
 fn is_word(base: &str, unit: &str, si: &SiUnit) -> bool {
     if let Some(meaning) = meaning(base, &ALL_ROLES) {
-        return meaning.role.takes_unit(&si.name);
+        return meaning.role.factor(si).is_some();
     }
     let is_bare = unit.chars().all(|c| c.is_alphabetic() || c == '°' || c == '%');
     !WORDS.contains(&unit)

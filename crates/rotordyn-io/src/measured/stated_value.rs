@@ -1,12 +1,10 @@
 //! A number with its unit as text: "12000", "12 kHz", "0,5 ms", "51,200 Hz".
 
-use super::unit_label::{self, SiUnit};
+use super::axis_units;
+use super::unit_label::SiUnit;
 
 /// Longest text of a number and a unit \[bytes\].
 const MAX_TEXT: usize = 64;
-/// Labels of rates that are no units.
-const SAMPLES_PER_SECOND: [&str; 6] =
-    ["s/s", "sa/s", "samples/s", "samples/sec", "sps", "samples per second"];
 /// Marks between groups of three digits that are no decimal sign.
 const GROUP_MARKS: [char; 5] = [' ', '\'', '\u{2019}', '\u{a0}', '\u{202f}'];
 
@@ -68,16 +66,18 @@ pub(crate) fn stated_value(value: &str) -> Option<(Written, Option<SiUnit>)> {
     let unit = unit.trim_matches([' ', '\t', ';', ',', '"', '[', ']', '(', ')', '\u{a0}', '\u{202f}']);
     let si = match unit {
         "" => None,
-        unit if SAMPLES_PER_SECOND.iter().any(|label| unit.eq_ignore_ascii_case(label)) => {
-            unit_label::si("Hz")
-        }
-        unit => Some(unit_label::si(unit)?),
+        unit => Some(axis_units::si(unit)?),
     };
     Some((number, si))
 }
 
 /// A number with a decimal sign; other marks may stand between groups of three digits.
 fn reading(text: &str, decimal: char) -> Option<f64> {
+    without_groups(text, decimal)?.parse().ok().filter(|v: &f64| v.is_finite())
+}
+
+/// The text of a number with a decimal point and without the marks between its groups of three digits.
+pub(crate) fn without_groups(text: &str, decimal: char) -> Option<String> {
     let (mantissa, exponent) = text.split_at(text.find(['e', 'E']).unwrap_or(text.len()));
     let (whole, fraction) = mantissa.split_once(decimal).unwrap_or((mantissa, ""));
     let is_digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
@@ -100,9 +100,9 @@ fn reading(text: &str, decimal: char) -> Option<f64> {
         return None;
     }
     let sign = &whole[..whole.len() - digits.len()];
-    let plain = format!("{sign}{}.{fraction}0{exponent}", groups.concat());
     let has_digits = !digits.is_empty() || !fraction.is_empty();
-    plain.parse().ok().filter(|v: &f64| has_digits && v.is_finite())
+    let mark = if fraction.is_empty() { "" } else { "." };
+    has_digits.then(|| format!("{sign}{}{mark}{fraction}{exponent}", groups.concat()))
 }
 
 #[cfg(test)]

@@ -35,6 +35,8 @@ pub(super) struct Structures<'a> {
     units: HashMap<&'a str, usize>,
     /// Number of numeric arrays of a structure that are records.
     records: HashMap<&'a str, usize>,
+    /// Place of the unit of an array that states an axis.
+    axis_units: HashMap<usize, usize>,
     /// Places of the arrays that have been taken as axis, unit or title.
     used: RefCell<HashSet<usize>>,
     given_rate: Option<f64>,
@@ -67,13 +69,17 @@ pub(super) struct Axes<'a> {
 
 impl<'a> Structures<'a> {
     /// `given_rate`: sampling rate \[Hz\] that holds where the file states two.
-    pub fn new(arrays: &'a [Array], given_rate: Option<f64>) -> Self {
+    ///
+    /// # Errors
+    /// The unit of an axis or a rate is not understood.
+    pub fn new(arrays: &'a [Array], given_rate: Option<f64>) -> Result<Self, ContentProblem> {
         let mut found = Self {
             arrays,
             places: HashMap::new(),
             stated: HashMap::new(),
             units: HashMap::new(),
             records: HashMap::new(),
+            axis_units: HashMap::new(),
             used: RefCell::default(),
             given_rate,
             notes: RefCell::default(),
@@ -89,6 +95,7 @@ impl<'a> Structures<'a> {
                 *found.records.entry(structure).or_default() += 1;
             }
         }
+        found.convert_axes()?;
         for stated in found.stated.values_mut() {
             // Of `t` and `T` the second may be a temperature.
             let capital = |place: usize| {
@@ -97,7 +104,41 @@ impl<'a> Structures<'a> {
             };
             stated.sort_by_key(|(meaning, place)| (meaning.rank, capital(*place), *place));
         }
-        found
+        Ok(found)
+    }
+
+    /// Takes the units that attributes of the axes and rates state, `time.unit`, and arrays beside them, `fs_unit`.
+    fn convert_axes(&mut self) -> Result<(), ContentProblem> {
+        let arrays = self.arrays;
+        for stated in self.stated.values_mut() {
+            let mut kept = Vec::with_capacity(stated.len());
+            for (mut meaning, place) in stated.drain(..) {
+                let name = arrays[place].name.as_str();
+                let paired = || {
+                    let names = ["unit", "units", "Unit"].map(|end| format!("{name}_{end}"));
+                    names.iter().find_map(|name| self.places.get(name.as_str()).copied())
+                };
+                let own = self.units.get(name).copied().or_else(paired);
+                if let Some((at, label)) = own.and_then(|at| Some((at, arrays[at].as_text()?))) {
+                    match meaning.role.factor_of_label(label, name) {
+                        Ok(Some(factor)) => {
+                            (meaning.numerator, meaning.divisor) = factor;
+                            self.axis_units.insert(place, at);
+                        }
+                        Ok(None) => {
+                            self.axis_units.insert(place, at);
+                        }
+                        // Names that may state something else, and what the rate that is given replaces.
+                        Err(_) if meaning.uncertain || is_start(meaning.role) => continue,
+                        Err(_) if self.given_rate.is_some() && meaning.role != Role::Frequencies => continue,
+                        Err(problem) => return Err(problem),
+                    }
+                }
+                kept.push((meaning, place));
+            }
+            *stated = kept;
+        }
+        Ok(())
     }
 
     pub fn get(&self, name: &str) -> Option<&'a Array> {
@@ -109,7 +150,9 @@ impl<'a> Structures<'a> {
     }
 
     pub fn use_array(&self, place: usize) {
-        self.used.borrow_mut().insert(place);
+        let mut used = self.used.borrow_mut();
+        used.insert(place);
+        used.extend(self.axis_units.get(&place));
     }
 
     /// As [`Self::get`], of an array that is taken as title, axis or unit.
@@ -293,10 +336,7 @@ fn meaning_of(array: &Array, last: &str) -> Option<Meaning> {
         let mut meaning = meaning(last, &[Role::Rate, Role::Step, Role::Start, Role::Count])?;
         if let Some(si) = si {
             // The unit beside the number wins over that of the name.
-            if !meaning.role.takes_unit(&si.name) {
-                return None;
-            }
-            (meaning.numerator, meaning.divisor) = (si.numerator, si.divisor);
+            (meaning.numerator, meaning.divisor) = meaning.role.factor(&si)?;
         }
         let possible = match meaning.role {
             Role::Rate | Role::Step => StatedRate::of(&meaning, last, value).is_some(),
@@ -307,4 +347,9 @@ fn meaning_of(array: &Array, last: &str) -> Option<Meaning> {
     let list = array.as_list()?;
     let meaning = meaning(last, &[Role::Times, Role::Frequencies])?;
     list.windows(2).all(|pair| pair[0] < pair[1]).then_some(meaning)
+}
+
+/// Whether a value is no rate and no list.
+fn is_start(role: Role) -> bool {
+    matches!(role, Role::Start | Role::Count)
 }

@@ -45,6 +45,7 @@ const ADDITIONAL_UNITS: &[(&str, f64, f64, Powers)] = &[
     ("gn", 9.80665, 1.0, [1, 0, -2, 0, 0, 0]), ("g_n", 9.80665, 1.0, [1, 0, -2, 0, 0, 0]),
     ("mg", 9.80665, 1e3, [1, 0, -2, 0, 0, 0]),
     ("Hz", 1.0, 1.0, [0, 0, -1, 0, 0, 0]), ("kHz", 1e3, 1.0, [0, 0, -1, 0, 0, 0]),
+    ("MHz", 1e6, 1.0, [0, 0, -1, 0, 0, 0]),
     ("HZ", 1.0, 1.0, [0, 0, -1, 0, 0, 0]), ("hz", 1.0, 1.0, [0, 0, -1, 0, 0, 0]),
     ("V", 1.0, 1.0, [0, 0, 0, 0, 1, 0]), ("mV", 1.0, 1e3, [0, 0, 0, 0, 1, 0]),
     ("Volt", 1.0, 1.0, [0, 0, 0, 0, 1, 0]), ("volt", 1.0, 1.0, [0, 0, 0, 0, 1, 0]),
@@ -90,7 +91,10 @@ pub fn si(label: &str) -> Option<SiUnit> {
     if label.len() > MAX_LABEL {
         return None;
     }
-    if label.eq_ignore_ascii_case("rpm") || label == "rev/min" || label == "1/min" {
+    if ["rpm", "cpm"].iter().any(|same| label.eq_ignore_ascii_case(same))
+        || label == "rev/min"
+        || label == "1/min"
+    {
         return Some(SiUnit { name: "rpm".into(), numerator: 1.0, divisor: 1.0 });
     }
     let label = RUN_TOGETHER.iter().find(|(written, _)| *written == label).map_or(label, |(_, meant)| meant);

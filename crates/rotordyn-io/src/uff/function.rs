@@ -5,7 +5,9 @@ use super::data_form::DataForm;
 use super::ordinate::{AxisCharacteristics, ratio};
 use super::{ParseError, UnitSystem, field};
 use crate::budget::Budget;
-use crate::measured::unit_label;
+use crate::error::snippet;
+use crate::measured::axis_names::Role;
+use crate::measured::{axis_units, unit_label};
 use rotordyn_signal::Complex;
 use rotordyn_signal::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Points, Record, Values};
 
@@ -120,9 +122,9 @@ pub(super) fn read(
 
     let [abscissa, ordinate, denominator, z] = [7, 8, 9, 10].map(|k| AxisCharacteristics::of(block, k));
     let (abscissa, over, under, z) = (abscissa?, ordinate?, denominator?, z?);
-    let scale = abscissa.si(false, None);
-    let (up, down) = scale.as_ref().map_or((1.0, 1.0), |s| (s.numerator, s.divisor));
-    let quantity = quantity(&abscissa, scale.map(|s| s.name), identity.kind);
+    let (quantity, (up, down)) = scale(&abscissa, identity.kind).map_err(|problem| {
+        block.error_at(7, format!("{problem} of `{name}` is not understood"), AXIS_UNIT_HINT)
+    })?;
     let axis = match layout.even {
         true => Axis::uniform(quantity, layout.start * up / down, layout.step * up / down),
         false => Axis::from_points(quantity, rows.map(|row| row[0] * up / down).collect()),
@@ -172,17 +174,46 @@ pub(super) fn read(
     Ok(())
 }
 
-/// Quantity of the abscissa: by its type, its unit, or the kind of function.
-fn quantity(abscissa: &AxisCharacteristics, unit: Option<String>, kind: Kind) -> AxisQuantity {
-    match (abscissa.data_type, unit.as_deref(), kind) {
-        (17, _, _) | (_, Some("s"), _) => AxisQuantity::Time,
-        (18, _, _) | (_, Some("Hz"), _) => AxisQuantity::Frequency,
-        (19, _, _) | (_, Some("rpm"), _) => AxisQuantity::Speed,
-        (20, _, _) => AxisQuantity::Order,
+const AXIS_UNIT_HINT: &str =
+    "state the abscissa in Hz, kHz, rad/s, rpm or cpm, or in s, ms or us, and correct its unit label";
+
+/// Quantity of the abscissa, and the factor and divisor to Hz, s or rpm: by its type, its unit, or the kind of function.
+fn scale(abscissa: &AxisCharacteristics, kind: Kind) -> Result<(AxisQuantity, (f64, f64)), String> {
+    let label = abscissa.unit_label.as_str();
+    let unit = if label.is_empty() { abscissa.si(false, None) } else { axis_units::si(label) };
+    let name = unit.as_ref().map(|unit| unit.name.as_str());
+    let quantity = match (abscissa.data_type, name, kind) {
+        (17, ..) => AxisQuantity::Time,
+        (18, ..) => AxisQuantity::Frequency,
+        (19, ..) => AxisQuantity::Speed,
+        (20, ..) => AxisQuantity::Order,
+        (_, Some("s"), _) => AxisQuantity::Time,
+        (_, Some("Hz"), _) => AxisQuantity::Frequency,
+        (_, Some("rpm" | "rad/s"), Kind::Frf | Kind::Coherence) => AxisQuantity::Frequency,
+        (_, Some("rpm"), _) => AxisQuantity::Speed,
         (_, _, Kind::General) => AxisQuantity::Unknown,
         (_, _, Kind::Time) => AxisQuantity::Time,
         _ => AxisQuantity::Frequency,
+    };
+    let role = match quantity {
+        AxisQuantity::Time => Role::Times,
+        AxisQuantity::Frequency | AxisQuantity::Speed => Role::Frequencies,
+        AxisQuantity::Order | AxisQuantity::Unknown => {
+            return Ok((quantity, unit.map_or((1.0, 1.0), |unit| (unit.numerator, unit.divisor))));
+        }
+    };
+    let Some(unit) = unit.filter(|unit| unit.name != "1") else {
+        return match label {
+            "" | "-" | "1" => Ok((quantity, (1.0, 1.0))),
+            _ => Err(format!("the unit `{}` of the abscissa", snippet(label))),
+        };
+    };
+    if quantity == AxisQuantity::Speed && unit.name == "rpm" {
+        return Ok((quantity, (unit.numerator, unit.divisor)));
     }
+    let (up, down) =
+        role.factor(&unit).ok_or_else(|| format!("the unit `{}` of the abscissa", snippet(label)))?;
+    Ok((quantity, if quantity == AxisQuantity::Speed { (up * 60.0, down) } else { (up, down) }))
 }
 
 fn axis_is_not_increasing(axis: &Axis) -> bool {

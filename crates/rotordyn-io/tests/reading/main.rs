@@ -1,6 +1,10 @@
 //! Files of measured records as users have them: rates, units, columns and axes that are easily misread.
 
 mod arrays;
+#[cfg(feature = "hdf5")]
+mod axis_units;
+mod dialects;
+mod polar_frfs;
 mod tables;
 
 use rotordyn_io::budget::Limits;
