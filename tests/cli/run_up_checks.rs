@@ -110,6 +110,24 @@ fn divergence_names_the_unstable_mode() {
 
 /// Dormand-Prince's steps hold the energies at the default tolerance, on stiff contacts too; a coarse one is said to be so by the
 /// keys that change it.
+/// Orders that the sampling rate does not take are bad input, before anything is computed.
+#[test]
+fn orders_beyond_the_sampling_rate_are_refused_before_the_run() {
+    let study = "[study.run_up]\nsample_rate = \"100 Hz\"\n[study.orders]\nmax_order = 10\n";
+    let text = rotor(
+        [LINEAR, LINEAR],
+        &format!("{UNBALANCE}{}{study}", speed("\"ramp\"\nto = \"600 rpm\"\nramp = \"5 s\"", "")),
+    );
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("model.toml"), text).unwrap();
+    for command in ["check", "run"] {
+        let run = rotordyn().current_dir(folder.path()).args([command, "model.toml"]).assert().code(2);
+        let shown = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
+        assert!(shown.contains("max_order") && shown.contains("sample_rate"), "{shown}");
+    }
+    assert!(!folder.path().join("out").exists());
+}
+
 #[test]
 fn tolerance_of_error_control_holds_the_energies() {
     let model = concat!(env!("CARGO_MANIFEST_DIR"), "/models/jeffcott.toml");
@@ -156,12 +174,12 @@ fn cuts_of_two_bearings_are_named_by_them() {
     assert_eq!(labels([8, 8], &same), ["1x", "BPFO"]);
 }
 
-/// A run-up that is done, but has too few revolutions for its cuts: no fault of the input.
+/// Too few revolutions for the cuts, which the speed profile says before the run.
 #[test]
-fn cuts_that_cannot_be_made_are_no_invalid_input() {
+fn cuts_that_cannot_be_made_are_refused_before_the_run() {
     let study = "[study.run_up]\n[study.orders]\nresolution = 0.5\nmax_order = 8\ncuts = [1]\n";
     let more = speed("\"constant\"\nspeed = \"600 rpm\"\nduration = \"0.05 s\"", study);
     let found =
-        document(&rotor([LINEAR, LINEAR], &format!("{more}{UNBALANCE}")), &["run-up", "model.toml"], 3);
-    assert_eq!(found["run_up"]["end"], "complete");
+        document(&rotor([LINEAR, LINEAR], &format!("{more}{UNBALANCE}")), &["run-up", "model.toml"], 2);
+    assert!(found["run_up"].is_null(), "{found}");
 }
