@@ -115,3 +115,19 @@ fn empty_tables_of_studies_have_defaults() {
     assert!(close(found.model.studies.critical.unwrap().max_speed, 6000.0 * rpm));
     assert!(found.defaults.iter().any(|default| default.path == "study.campbell.speeds"));
 }
+
+#[test]
+fn probes_named_like_automatic_channels_are_refused() {
+    let probe = |name: &str| format!("probe.{name} = {{ at = \"disc.fan\", direction = \"x\" }}");
+    for name in ["A_force_x", "A_cage_angle", "B_force_z", "energy_work"] {
+        let message = refused(RAMP, &probe(name));
+        assert!(
+            message.contains(&format!("probe.{name} has the name of the automatic channel")),
+            "{message}"
+        );
+    }
+    // A linear bearing has no cage, a prescribed speed no work of a drive.
+    for name in ["B_cage_angle", "energy_drive", "A_force", "C_force_x"] {
+        assert!(loaded(RAMP, &probe(name)).is_ok(), "{name}");
+    }
+}

@@ -1,6 +1,8 @@
 //! A spoiled copy of a plausible machine has the warning of its fault, and no other.
 
+use crate::copies::without_modal;
 use crate::machines::{self, Description};
+use crate::program;
 use crate::{codes, warnings_of};
 use rotordyn::assembly::rigid_body_modes::motion_of;
 
@@ -166,6 +168,26 @@ fn a_load_beyond_the_static_rating() {
     motor.gravity = "8000 m/s^2";
     let found = warnings_of(&motor.text());
     assert!(codes(&found).contains("static-load"), "{found:?}");
+}
+
+/// A shock within the run, which the static equilibrium does not have.
+#[test]
+fn a_shock_beyond_the_static_rating() {
+    let of = |force: &str| {
+        let mut motor = machine("motor_small");
+        motor.more = format!(
+            "[load.shock]\nat = \"station.A\"\nforce = \"0, -{force}, 0 N\"\ntime = \"0, 0.1, 0.105, 0.15 s\"\nfactor = [0, 0, 1, 0]\n\
+             [study.run_up]\nstep = \"100 us\"\n"
+        );
+        let text = without_modal(&motor.text(), &motor.more);
+        let ramp = "ramp = \"2 s\"";
+        let folder = program::folder(&[("motor.toml", replaced(&text, ramp, "ramp = \"0.2 s\""))]);
+        let run = ["run-up", "motor.toml", "--no-figures", "--out", "out"];
+        program::codes(folder.path(), &run, 0)
+    };
+    let [calm, shock] = [of("10"), of("30000")];
+    assert!(!calm.contains("static-load"), "{calm:?}");
+    assert!(shock.contains("static-load"), "{shock:?}");
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod bearing;
 mod bearing_study;
 mod bifurcation_parameter;
 pub mod catalogue;
+mod channel_names;
 mod connections;
 mod contact;
 mod default_points;
@@ -169,6 +170,7 @@ pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Mo
     }
     model.studies = study::read(&top, &model, &places);
     if log.error_count() == 0 {
+        channel_names::check(&top, &model);
         topology::check(&top, &model);
         let sites = top.items(&bearing::TOP.bearing);
         mounting::check_axial_location(&sites, &model, log);
