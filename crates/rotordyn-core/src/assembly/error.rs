@@ -10,6 +10,10 @@ pub enum PhysicsError {
     )]
     Singular { motion: String },
     #[error(
+        "{motion} has a natural frequency of {frequency:.1e} Hz, almost 0 beside those of the shaft: stiffness holds it, but {item} of {mass:.3e} kg is too large for it; check the dimensions of {item}"
+    )]
+    AlmostFree { motion: String, frequency: f64, item: String, mass: f64 },
+    #[error(
         "{item} has no inertia: a shaft of density 0 has mass at its discs only; state a small density, such as \"1 kg/m^3\", or a mass there"
     )]
     NoInertia { item: String },

@@ -13,6 +13,7 @@ mod contact;
 mod default_points;
 mod default_ranges;
 mod defects;
+mod disc_fit;
 mod free_ball;
 mod free_cage;
 mod imperfections;
@@ -175,6 +176,7 @@ pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Mo
         let sites = top.items(&bearing::TOP.bearing);
         mounting::check_axial_location(&sites, &model, log);
         mounting::check_free_rotation(&top, &model);
+        disc_fit::check(&top, &model);
         plausibility::check(&top, &model, (&TOP.material, [&MATERIAL.young, &MATERIAL.density]));
         let bearings = model.bearings.iter().map(|s| (&*s.name, &s.bearing));
         mounting::check_mounted_preloads(&sites, bearings, true, log);
