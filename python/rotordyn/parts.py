@@ -2390,7 +2390,8 @@ class Probe(Part):
     ``at`` (name of a station, disc, body, housing or ground): Where it acts. Required.
     ``offset`` (length: three: x, y, z): Distance from there; on ground the position. Without it: "0, 0, 0 m".
     ``direction`` (x, y, z, or tx, ty, tz for a rotation, - for the opposite or number: three, or six with
-        rotations): Direction by name. Direction by components. Required.
+        rotations): Direction by name. Direction by components, scaled to unit translation, else to unit
+        rotation; rotations in rad per metre of it. Required.
     ``quantity`` ("displacement", "velocity", "acceleration"): What is measured. Without it: "displacement".
     """
 

@@ -102,6 +102,7 @@ fn run(prepared: &mut Prepared, watch: &mut Watch) -> Result<(), Stop> {
         recorder.record(sample);
         watch.look(sample.state.time, profile.duration(), sample.state.spin.speed)
     });
+    let peak_loads = recorder.peak_loads();
     let history = recorder.into_history();
     if let End::Failed(error) = &report.end {
         return Err(error.clone().into());
@@ -137,6 +138,7 @@ fn run(prepared: &mut Prepared, watch: &mut Watch) -> Result<(), Stop> {
         cage_angles: machine.cage_angles(),
         step_error,
         cage_comparison,
+        peak_loads,
     });
     Ok(())
 }

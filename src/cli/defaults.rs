@@ -3,6 +3,7 @@
 use rotordyn::model::{DefaultValue, Model, keys};
 use serde_json::{Value, json};
 
+use super::args::keys::default_words;
 use super::studies::Study;
 use super::terminal::Terminal;
 
@@ -40,6 +41,11 @@ pub fn print_decisive(terminal: &Terminal, defaults: &[DefaultValue], model: &Mo
         "bearing.clearance" => true,
         "bearing.contact_damping" => vibrates,
         "study.run_up.step" | "study.run_up.cutoff" => runs,
+        // Changed to fit the run.
+        "study.run_up.sample_rate"
+        | "study.spectrogram.length"
+        | "study.orders.resolution"
+        | "study.orders.max_order" => runs && group.value != default_words(&group.key),
         _ => false,
     };
     let words = |mut group: Group| {

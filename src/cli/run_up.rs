@@ -10,7 +10,9 @@ use rotordyn::io::results_file;
 use rotordyn::model::Drive;
 use rotordyn::model::study::RunUpStudy;
 use rotordyn::results::{CagePhaseBand, History, RollingCageComparison, RunSummary, RunUpResult};
-use rotordyn::study::{Checkpoints, MotionRecorder, RecordedSample, Recorder, StudyError};
+use rotordyn::study::{
+    Checkpoints, MotionRecorder, RecordedSample, Recorder, StudyError, run_for_step_error,
+};
 use rotordyn::transient::run::{End, Sample};
 use rotordyn::warning::{Code, Warning};
 
@@ -177,8 +179,10 @@ impl Job<'_> {
             cage_angles: machine.cage_angles(),
             step_error,
             cage_comparison,
+            peak_loads: recorder.peak_loads(),
         };
-        tables::run_up(self.terminal, &found, check_seconds);
+        let needed = run_for_step_error(settings.sample_rate, &orders, settings.integrator);
+        tables::run_up(self.terminal, &found, check_seconds, needed);
         if let Some(comparison) = &found.cage_comparison {
             cage_tables::comparison(self.terminal, comparison);
         }

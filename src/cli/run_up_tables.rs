@@ -1,6 +1,7 @@
 //! Lines and tables of a run-up: step and its error, cage angles, ranges over the cage phases.
 
 use rotordyn::results::{CagePhaseBand, RunUpResult};
+use rotordyn::transient::run::End;
 
 use super::terminal::{Terminal, number, rpm};
 
@@ -8,7 +9,9 @@ use super::terminal::{Terminal, number, rpm};
 const MAX_ROWS: usize = 40;
 
 /// The step used with its estimated error, and the cage angles at the start.
-pub fn step_and_cages(terminal: &Terminal, found: &RunUpResult, seconds: f64) {
+///
+/// `needed`: time \[s\] and turns of the shaft that the estimate needs.
+pub fn step_and_cages(terminal: &Terminal, found: &RunUpResult, seconds: f64, needed: (f64, f64)) {
     let requested = number(1e6 * found.requested_step, 4);
     match found.report.step {
         None => terminal.print("  steps chosen by error control"),
@@ -43,7 +46,7 @@ pub fn step_and_cages(terminal: &Terminal, found: &RunUpResult, seconds: f64) {
     } else if found.has_free_balls() {
         terminal.print("  the shortest step; contacts and friction of the free balls choose the steps");
     } else if found.report.step.is_some() {
-        terminal.print("  no estimate of the step's error: the run is too short, or not complete");
+        terminal.print(&format!("  no estimate of the step's error: {}", missing_estimate(found, needed)));
     }
     if !found.cage_angles.is_empty() {
         let angle = |(bearing, angle): &(String, f64)| format!("{bearing} {:.2} deg", angle.to_degrees());
@@ -55,6 +58,20 @@ pub fn step_and_cages(terminal: &Terminal, found: &RunUpResult, seconds: f64) {
         };
         terminal.print(&format!("  cage angles at the start: {}{hint}", all.join(", ")));
     }
+}
+
+/// Why a run has no estimate of its step's error.
+fn missing_estimate(found: &RunUpResult, (seconds, turns): (f64, f64)) -> String {
+    if found.report.end != End::Complete {
+        return "the run did not reach its end".into();
+    }
+    let duration = found.summary.samples as f64 / found.history.sample_rate;
+    if duration < seconds {
+        return format!(
+            "it needs a run of {seconds:.3} s at this sampling rate, this one has {duration:.3} s"
+        );
+    }
+    format!("it needs about {turns:.0} turns of the shaft, more where the largest response is at low speed")
 }
 
 /// Largest level of every order cut: in the run of the model, smallest and largest over the phases.

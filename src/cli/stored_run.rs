@@ -30,10 +30,15 @@ pub fn run(args: &StoredArgs, terminal: &Terminal, study: Study) -> Result<Outco
     drop(stored);
 
     let base = origin.load(&[])?;
-    let settings = match study {
+    let mut settings = match study {
         Study::Orders => settings::orders(&base.model, args),
         _ => settings::spectrogram(&base.model, args),
     };
+    // The orders fit the rate that the run has, not it theirs.
+    let rate = "study.run_up.sample_rate";
+    if base.defaults.iter().any(|default| default.path == rate) {
+        settings.set.insert(0, (rate.into(), settings::toml_string(&format!("{} Hz", history.sample_rate))));
+    }
     let mut loaded = origin.load_with(&settings)?;
     if let Some(note) = &settings.note {
         terminal.print(note);

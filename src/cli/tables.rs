@@ -8,7 +8,7 @@ use rotordyn::linalg::Complex64;
 use rotordyn::model::Model;
 use rotordyn::results::{
     CampbellResult, CriticalResult, FrfResult, ModalResult, OrderResult, RunUpResult, SpectrogramResult,
-    UnbalanceResult, UndampedPeak, unit_of,
+    UnbalanceResult, UndampedPeak, is_rotation, unit_of,
 };
 use rotordyn::series::SeriesError;
 
@@ -261,8 +261,7 @@ pub fn unbalance(terminal: &Terminal, found: &UnbalanceResult) {
     for channel in &found.channels {
         let sizes = channel.amplitude.iter().map(|[re, im]| re.hypot(*im)).collect();
         if let Some((speed, size, _)) = peak(sizes) {
-            let unit =
-                unit_of(channel.probe.quantity, channel.probe.direction[..3].iter().all(|d| *d == 0.0));
+            let unit = unit_of(channel.probe.quantity, is_rotation(&channel.probe.direction));
             let name = channel.probe.name.clone();
             let size = amplitude_text(size, &found.undamped, &name);
             rows.push(vec![name, format!("{speed:.1}"), size, unit.into()]);
@@ -327,7 +326,8 @@ fn unbalance_peaks(terminal: &Terminal, found: &UnbalanceResult) {
     print_omitted_count(terminal, count);
 }
 
-pub fn run_up(terminal: &Terminal, found: &RunUpResult, check_seconds: f64) {
+/// `needed`: time \[s\] and turns of the shaft that the estimate of the step's error needs.
+pub fn run_up(terminal: &Terminal, found: &RunUpResult, check_seconds: f64, needed: (f64, f64)) {
     let (report, history, summary) = (&found.report, &found.history, &found.summary);
     terminal.heading("Run-up");
     let newton = match report.iterations {
@@ -342,7 +342,7 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult, check_seconds: f64) {
         report.halvings,
         report.samples
     ));
-    super::run_up_tables::step_and_cages(terminal, found, check_seconds);
+    super::run_up_tables::step_and_cages(terminal, found, check_seconds, needed);
     terminal.print(&format!(
         "  reduced model: {} modes and {} static correction modes; relative error {:.1e} of the static deflection,\n  \
          {:.1e} of the frequencies up to half the cutoff",

@@ -340,3 +340,16 @@ fn fitted_law_outside_its_range_in_a_linear_study() {
         "{outside}"
     );
 }
+
+/// Speed parameter of deep groove and of angular contact bearings beside the limits that `bearing-speed` has.
+#[test]
+fn speed_parameter_has_the_limit_of_the_kind() {
+    for (designation, limit) in [("6205", 1.5e6), ("7205B", 2.5e6)] {
+        let flags = ["--speed", "28648 rpm", "--sweep", "cage_angle=0 deg .. 1 deg"];
+        let (_, document) = found(&alone(designation, ""), "bearing", &flags);
+        let limits = document["bearings"][0]["limits"].as_array().unwrap();
+        let speed = limits.iter().find(|limit| limit["quantity"] == "speed parameter n d_m").unwrap();
+        assert!((speed["limit"].as_f64().unwrap() - limit).abs() < 1.0, "{speed}");
+        assert_eq!(speed["state"], "within");
+    }
+}

@@ -57,6 +57,7 @@ pub static RIG: LazyLock<(Machine, Results)> = LazyLock::new(|| {
             cage_angles: machine.cage_angles(),
             step_error: None,
             cage_comparison: None,
+            peak_loads: Vec::new(),
         }),
         critical_map: None,
         torsional: None,

@@ -70,7 +70,7 @@ fn given_probes_have_no_others_beside_them() {
 /// BPFO of the 6205 is 3.57: the order spectrum holds its cuts, and a file that excludes one is told so before any run.
 #[test]
 fn order_spectrum_holds_the_highest_cut() {
-    let run = "[speed]\nprofile = \"constant\"\nspeed = \"9 rpm\"\nduration = \"1 s\"\n[study.run_up]\n[study.orders]\n";
+    let run = "[speed]\nprofile = \"constant\"\nspeed = \"9 rpm\"\nduration = \"200 s\"\n[study.run_up]\n[study.orders]\n";
     let highest = |cuts: &str| {
         let found = load(&format!("{run}cuts = [{cuts}]\n"), &[]).model.studies.orders.unwrap();
         (found.max_order, found.cuts.iter().copied().fold(0.0, f64::max))

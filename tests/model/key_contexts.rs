@@ -19,7 +19,7 @@ const MACHINE: &str = r#"
     unbalance.own = { station = "C", magnitude = "10 g mm" }
     probe.disc_x = { at = "station.C", direction = "x" }
     probe.disc_y = { at = "station.C", direction = "y" }
-    speed = { profile = "ramp", to = "3000 rpm", ramp = "10 s" }
+    speed = { profile = "ramp", to = "2000 rpm", ramp = "10 s" }
     study.run_up = {}
     study.orders = {}
 "#;

@@ -11,5 +11,6 @@ mod key_contexts;
 mod papers;
 mod renamed;
 mod rig;
+mod run_analyses;
 mod schema;
 mod syntax;

@@ -30,6 +30,19 @@ const INPUT: &[Case] = &[
         models(&machine("two_discs_soft").text(), &thin.text())
     }),
     (Code::BoreMismatch, || exchanged("motor_large", "\"6312\"", "\"6310\"")),
+    (Code::DiscFit, || {
+        exchanged("two_discs_soft", "thickness = ", "inner_diameter = \"80 mm\"\nthickness = ")
+    }),
+    (Code::DiscSize, || {
+        // Its mass by a light material, so that nothing else is wrong with it.
+        let of = |diameter: &str| {
+            let text = machine("two_discs_soft").text();
+            let material = "[material.foam]\nyoung = \"1 GPa\"\npoisson = 0.3\ndensity = \"400 kg/m^3\"\n[disc.light]\n\
+                            station = \"at_one\"\nthickness = \"0.01 mm\"\nmaterial = \"foam\"\n";
+            replaced(&text, "[disc.one]", &format!("{material}outer_diameter = \"{diameter}\"\n[disc.one]"))
+        };
+        models(&of("1 m"), &of("9 m"))
+    }),
     (Code::OverlappingDiscs, || {
         let mut two = machine("two_discs_soft");
         two.discs[1].1 = two.discs[0].1 + 12.0;

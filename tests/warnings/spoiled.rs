@@ -1,6 +1,8 @@
 //! A spoiled copy of a plausible machine has the warning of its fault, and no other.
 
+use crate::copies::without_modal;
 use crate::machines::{self, Description};
+use crate::program;
 use crate::{codes, warnings_of};
 use rotordyn::assembly::rigid_body_modes::motion_of;
 
@@ -166,6 +168,75 @@ fn a_load_beyond_the_static_rating() {
     motor.gravity = "8000 m/s^2";
     let found = warnings_of(&motor.text());
     assert!(codes(&found).contains("static-load"), "{found:?}");
+}
+
+/// A shock within the run, which the static equilibrium does not have.
+#[test]
+fn a_shock_beyond_the_static_rating() {
+    let of = |force: &str| {
+        let mut motor = machine("motor_small");
+        motor.more = format!(
+            "[load.shock]\nat = \"station.A\"\nforce = \"0, -{force}, 0 N\"\ntime = \"0, 0.1, 0.105, 0.15 s\"\nfactor = [0, 0, 1, 0]\n\
+             [study.run_up]\nstep = \"100 us\"\n"
+        );
+        let text = without_modal(&motor.text(), &motor.more);
+        let ramp = "ramp = \"2 s\"";
+        let folder = program::folder(&[("motor.toml", replaced(&text, ramp, "ramp = \"0.2 s\""))]);
+        let run = ["run-up", "motor.toml", "--no-figures", "--out", "out"];
+        program::codes(folder.path(), &run, 0)
+    };
+    let [calm, shock] = [of("10"), of("30000")];
+    assert!(!calm.contains("static-load"), "{calm:?}");
+    assert!(shock.contains("static-load"), "{shock:?}");
+}
+
+/// Bores of discs with play, on a hub, and smaller than the shaft.
+#[test]
+fn a_disc_that_does_not_fit_the_shaft() {
+    let text = machine("two_discs_soft").text();
+    let with = |keys: &str| replaced(&text, "thickness = ", &format!("{keys}\nthickness = "));
+    only(&with("inner_diameter = \"200 mm\""), "disc-fit");
+    assert!(warnings_of(&with("inner_diameter = \"42 mm\"")).is_empty());
+    let mut thin = machine("two_discs_soft");
+    thin.discs[0].2 = 30.0;
+    assert!(codes(&warnings_of(&thin.text())).contains("disc-fit"), "a disc within the shaft");
+}
+
+/// A disc whose unit is wrong is named, not a missing support.
+#[test]
+fn a_disc_of_absurd_size_is_no_missing_support() {
+    let huge = r#"
+        model = { name = "m" }
+        material.steel = { young = "207 GPa", poisson = 0.3, density = "7850 kg/m^3" }
+        station = { A = "30 mm", B = "380 mm", fan = "480 mm" }
+        shaft = { element_length = "20 mm", section = [{ length = "500 mm", outer_diameter = "25 mm" }] }
+        disc.fan = { station = "fan", outer_diameter = "25 m", thickness = "15 mm" }
+        bearing.A = { model = "ball", station = "A", designation = "6205" }
+        bearing.B = { model = "ball", station = "B", designation = "6205", clearance = "C3" }
+        drive = { kind = "prescribed", station = "A" }
+    "#;
+    let loaded = rotordyn::model::load("motor.toml", huge, &Default::default()).unwrap();
+    let warned: Vec<String> =
+        loaded.warnings.iter().filter_map(|d| d.to_warning()).map(|w| w.code.name().to_string()).collect();
+    assert!(warned.contains(&"disc-size".to_string()), "{warned:?}");
+    let error = rotordyn::study::Machine::new(loaded.model).err().unwrap().to_string();
+    assert!(!error.contains("unconstrained") && error.contains("disc.") && error.contains("Hz"), "{error}");
+}
+
+/// Damping of 1e-6 of the critical one: a peak of no meaning.
+#[test]
+fn a_response_with_hardly_any_damping() {
+    let mut rotor = machine("two_discs_soft");
+    rotor.more = "[probe.x]\nat = \"disc.one\"\ndirection = \"x\"\n[study.unbalance]\n\
+                  speeds = { from = \"100 rpm\", to = \"3000 rpm\", step = \"100 rpm\" }\n\
+                  [study.frf]\nfrequencies = { from = \"5 Hz\", to = \"50 Hz\", step = \"1 Hz\" }\n"
+        .into();
+    let damped = |c: &str| rotor.text().replace("\"2000 N s/m\"", &format!("\"{c} N s/m\""));
+    let found = warnings_of(&damped("0.02"));
+    let items: Vec<&str> =
+        found.iter().filter(|w| w.code.name() == "undamped-peak").map(|w| w.item.as_str()).collect();
+    assert!(items.contains(&"study.unbalance") && items.contains(&"study.frf"), "{found:#?}");
+    assert!(warnings_of(&damped("200")).is_empty());
 }
 
 #[test]

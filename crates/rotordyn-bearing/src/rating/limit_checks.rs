@@ -2,12 +2,26 @@
 
 use super::limits::{BearingLoad, LOST_ANGLE, LOWEST_FILM_RATIO, TRACTION, race_name};
 use super::load_rating::STATIC_CONTACT_STRESS;
+use crate::BallBearing;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Speed parameter n d_m up to which grease lasts in deep groove ball bearings \[mm/min\]; a guide of makers' catalogues,
 /// n in rpm, d_m the pitch diameter in mm.
 pub const GREASE_SPEED_PARAMETER: f64 = 5e5;
+/// Speed parameters beyond which no deep groove and no angular contact ball bearing is built \[mm/min\], with oil, ceramic
+/// balls and light series.
+const SPEED_LIMITS: [f64; 2] = [1.5e6, 2.5e6];
+
+/// Speed parameter n d_m of a bearing at a speed \[rad/s\], in mm/min.
+pub fn speed_parameter(bearing: &BallBearing, speed: f64) -> f64 {
+    1e3 * bearing.geometry.pitch_diameter * speed.abs() * 30.0 / PI
+}
+
+/// The largest speed parameter of a bearing's kind \[mm/min\].
+pub fn speed_limit(bearing: &BallBearing) -> f64 {
+    SPEED_LIMITS[usize::from(bearing.geometry.contact_angle > 0.0)]
+}
 
 /// What a figure says beside its limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -66,16 +80,15 @@ impl BearingLoad<'_> {
     pub fn limit_checks(&self) -> Vec<LimitCheck> {
         let g = &self.bearing.geometry;
         let loaded = self.loads().count();
-        let speed_parameter = 1e3 * g.pitch_diameter * self.speed.abs() * 30.0 / PI;
-        let mut grease = check(
+        let mut speed = check(
             "speed parameter n d_m",
-            [speed_parameter, GREASE_SPEED_PARAMETER],
+            [speed_parameter(self.bearing, self.speed), speed_limit(self.bearing)],
             GREATEST,
             "mm/min",
-            "makers' guide for grease in deep groove ball bearings; oil, ceramic balls and light series allow more",
+            "what bearings of this kind are built for at most; grease in deep groove ball bearings lasts up to 500000",
         );
-        if grease.state == LimitState::Exceeded {
-            grease.state = LimitState::BeyondGuide;
+        if speed.state == LimitState::Exceeded {
+            speed.state = LimitState::BeyondGuide;
         }
         let balls = check(
             "loaded balls",
@@ -85,7 +98,7 @@ impl BearingLoad<'_> {
             "without a loaded ball the bearing has no stiffness",
         );
         if loaded == 0 {
-            return vec![balls, grease];
+            return vec![balls, speed];
         }
         let safety = self.static_rating / self.static_load;
         let static_safety = check(
@@ -176,7 +189,7 @@ impl BearingLoad<'_> {
             shoulder,
             film,
             minimum,
-            Some(grease),
+            Some(speed),
             sliding,
             angle,
             open_side,

@@ -10,6 +10,10 @@ pub enum PhysicsError {
     )]
     Singular { motion: String },
     #[error(
+        "{motion} has a natural frequency of {frequency:.1e} Hz, almost 0 beside those of the shaft: stiffness holds it, but {item} of {mass:.3e} kg is too large for it; check the dimensions of {item}"
+    )]
+    AlmostFree { motion: String, frequency: f64, item: String, mass: f64 },
+    #[error(
         "{item} has no inertia: a shaft of density 0 has mass at its discs only; state a small density, such as \"1 kg/m^3\", or a mass there"
     )]
     NoInertia { item: String },
@@ -21,8 +25,16 @@ pub enum PhysicsError {
         "no convergence at t = {time:.6} s, {speed_rpm:.1} rpm: residual {residual:.3e} at {item} after {iterations} iterations and the smallest step"
     )]
     NoConvergence { item: String, time: f64, speed_rpm: f64, residual: f64, iterations: usize },
-    #[error("the run diverged at t = {time:.6} s, {speed_rpm:.1} rpm: {item} is at {value:.3e}")]
-    Diverged { item: String, time: f64, speed_rpm: f64, value: f64 },
+    #[error("the run diverged at t = {time:.6} s, {speed_rpm:.1} rpm: {item} is at {value:.3e}{advice}")]
+    Diverged {
+        item: String,
+        time: f64,
+        speed_rpm: f64,
+        value: f64,
+        /// What helps against it, after "; "; empty if only the machine may be the cause.
+        #[serde(default)]
+        advice: String,
+    },
     #[error(
         "unbalance {unbalance} of {magnitude:.3e} kg m is too large for a torque drive: U^2 must be less than m J of the rotor at its station, and there m = {mass:.3e} kg and J = {inertia:.3e} kg m^2 move with it; put it on a disc, or add its mass as a disc"
     )]

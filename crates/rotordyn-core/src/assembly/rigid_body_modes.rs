@@ -5,6 +5,7 @@ use super::{Assembly, LinearSystem, PhysicsError};
 use crate::model::{Drive, Model};
 use nalgebra::DMatrix;
 use rotordyn_linalg::{BandLayout, SparseMatrix, Triplets, dot, eigen};
+use std::f64::consts::TAU;
 
 /// Natural frequency \[rad/s\] below which a mode counts as rigid-body mode: one cycle in a minute.
 const RIGID_BODY_MAX_FREQUENCY: f64 = 0.1;
@@ -23,19 +24,51 @@ pub fn rigid_body_modes_of(assembly: &Assembly, system: &LinearSystem) -> Result
 /// # Errors
 /// No convergence of the undamped modes.
 pub fn rigid_body_modes_of_machine(model: &Model, assembly: &Assembly) -> Result<Vec<String>, PhysicsError> {
+    let mut motions = rigid_body_modes(assembly, &stiffness_of_machine(model, assembly))?;
+    leave_out_spin(model, &mut motions);
+    Ok(motions)
+}
+
+/// Motions among [`rigid_body_modes_of_machine`] that stiffness holds all the same, with their natural frequencies \[Hz\]: of
+/// an inertia so large that they count as rigid-body modes.
+///
+/// # Errors
+/// No convergence of the undamped modes.
+pub fn held_motions_of_machine(
+    model: &Model,
+    assembly: &Assembly,
+) -> Result<Vec<(String, f64)>, PhysicsError> {
+    /// xᵀ K x over Σ |xᵢ K_ij xⱼ| above which a shape deforms the structure: of a rigid-body mode it is round-off, of a disc on a
+    /// shaft of N elements that twists or bends about 1/N² to 1/N⁴.
+    const DEFORMS: f64 = 1e-9;
+    let stiffness = stiffness_of_machine(model, assembly);
+    let failed = |reason: String| PhysicsError::Eigen { speed_rpm: 0.0, reason };
+    let shapes = zero_frequency_shapes(&assembly.mass, &stiffness).map_err(failed)?;
+    let mut held = Vec::new();
+    for x in shapes {
+        let energy = dot(&x, &stiffness.mul(&x));
+        let terms: f64 = stiffness.iter().map(|(i, j, v)| (x[i] * v * x[j]).abs()).sum();
+        let square = energy / dot(&x, &assembly.mass.mul(&x));
+        if energy > DEFORMS * terms {
+            let names = describe(assembly, std::slice::from_ref(&x));
+            held.extend(names.into_iter().map(|name| (name, square.sqrt() / TAU)));
+        }
+    }
+    Ok(held)
+}
+
+/// Stiffness of structure, belts and bearings at standstill, all contacts of bearings taken as closed.
+fn stiffness_of_machine(model: &Model, assembly: &Assembly) -> SparseMatrix {
     let n = assembly.dofs.len();
     let mut bearings = Triplets::new(n, n);
     for (site, place) in model.bearings.iter().zip(&assembly.sites) {
         bearings.add_between_rows(&place.rows, &site.bearing.nominal_stiffness());
     }
-    let stiffness = SparseMatrix::sum(&[
+    SparseMatrix::sum(&[
         (1.0, &assembly.stiffness),
         (1.0, &assembly.belt_stiffness),
         (1.0, &bearings.build()),
-    ]);
-    let mut motions = rigid_body_modes(assembly, &stiffness)?;
-    leave_out_spin(model, &mut motions);
-    Ok(motions)
+    ])
 }
 
 /// Leaves out the rotation of the shaft about z, unless a prescribed drive station should constrain it.

@@ -4,6 +4,7 @@ mod external_file;
 pub mod free_ball_study;
 mod integrator;
 mod probe;
+pub mod run_channels;
 mod shaft_extent;
 pub mod speed_profile;
 mod steady_study;

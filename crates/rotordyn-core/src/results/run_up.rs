@@ -4,6 +4,7 @@ use super::history::History;
 use super::run_summary::RunSummary;
 use super::{OrderLine, RollingCageComparison};
 use crate::document::{Array, Document, Rows, Value, in_hdf5, in_json, named, quantity};
+use crate::transient::peak_loads::PeakLoad;
 use crate::transient::run::{End, Report};
 use rotordyn_signal::order::OrderCut;
 use serde::{Deserialize, Serialize};
@@ -30,6 +31,9 @@ pub struct RunUpResult {
     pub step_error: Option<StepError>,
     /// Free balls beside cages that roll without slip, if there are free balls.
     pub cage_comparison: Option<RollingCageComparison>,
+    /// The largest loads of the bearings, at the samples.
+    #[serde(default)]
+    pub peak_loads: Vec<PeakLoad>,
 }
 
 impl RunUpResult {

@@ -25,9 +25,9 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::record::interval_mean_name;
 use super::step_error::line_level;
 use super::{Machine, Recorder, StudyError};
+use crate::model::run_channels::interval_mean;
 use crate::model::study::{Integrator, RunUpStudy};
 use crate::results::{CageLine, CageSpeed, History, RollingCageComparison};
 use crate::series::{Series, SeriesError};
@@ -114,7 +114,7 @@ impl Machine {
         let samples_per_revolution = (end - first) as f64 / revolutions;
         for probe in 0..self.model.probes.len() {
             let own = &history.channels[probe];
-            let means = history.channel(&interval_mean_name(&own.name)).unwrap_or(own);
+            let means = history.channel(&interval_mean(&own.name)).unwrap_or(own);
             let means = means.values.read(first..end + 1)?;
             let angle = &angle[first..=end];
             let stretch_of = |run: &History| -> Result<[Vec<f64>; 2], SeriesError> {

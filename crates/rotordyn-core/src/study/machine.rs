@@ -445,7 +445,27 @@ fn name_rigid_body_mode(error: PhysicsError, model: &Model, assembly: &Assembly)
         Some(motion) if slenderness > SLENDER => {
             PhysicsError::TooSlender { motion, slenderness, shaft: assembly.extent.to_string() }
         }
-        Some(motion) => PhysicsError::Singular { motion },
+        Some(motion) => {
+            let held = rigid_body_modes::held_motions_of_machine(model, assembly).unwrap_or_default();
+            let own = held.into_iter().find(|(name, _)| *name == motion);
+            match own.zip(heaviest_item(model)) {
+                Some(((motion, frequency), (item, mass))) => {
+                    PhysicsError::AlmostFree { motion, frequency, item, mass }
+                }
+                None => PhysicsError::Singular { motion },
+            }
+        }
         None => error,
     }
+}
+
+/// The disc, rotor or body with the largest mass \[kg\].
+fn heaviest_item(model: &Model) -> Option<(String, f64)> {
+    let discs = model.discs.iter().map(|disc| (format!("disc.{}", disc.name), disc.mass));
+    let rotor = model.rigid_rotor.iter().map(|rotor| ("rotor".to_string(), rotor.mass));
+    let bodies = model
+        .bodies
+        .iter()
+        .map(|body| (format!("body `{}`", body.name), body.mass.iter().copied().fold(0.0, f64::max)));
+    discs.chain(rotor).chain(bodies).max_by(|a, b| a.1.total_cmp(&b.1))
 }

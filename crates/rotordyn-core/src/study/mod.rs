@@ -50,7 +50,7 @@ pub use run_up_comparison::{Run, compare_run_ups};
 pub use run_up_correlation::MeasuredRun;
 pub use settled_run::SettledSnapshot;
 pub use steady_motion::{Progress, RestartState};
-pub use step_error::Checkpoints;
+pub use step_error::{Checkpoints, run_for_step_error};
 pub use unbalance_comparison::compare_unbalance;
 pub use variant_comparison::{Variant, compare_variants};
 

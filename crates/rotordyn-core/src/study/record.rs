@@ -5,9 +5,10 @@ use std::collections::VecDeque;
 use serde::{Deserialize, Serialize};
 
 use super::probe_filter::ProbeFilter;
-use crate::model::{Model, Probe, Quantity};
-use crate::results::{History, HistoryChannel, unit_of};
+use crate::model::{Model, Probe, Quantity, run_channels};
+use crate::results::{History, HistoryChannel, is_rotation, unit_of};
 use crate::series::Series;
+use crate::transient::peak_loads::{PeakLoad, PeakLoads};
 use crate::transient::run::Sample;
 use crate::transient::system::System;
 
@@ -28,10 +29,11 @@ pub struct Recorder {
     kept: Vec<usize>,
     /// Whether samples are kept in memory.
     keeps_samples: bool,
-    /// Number of force components (of u_x u_y u_z) of every bearing.
-    directions: Vec<usize>,
+    /// Number of force components (of u_x u_y u_z) of every bearing, and whether it has a cage.
+    directions: Vec<(usize, bool)>,
     /// Whether the work of a torque drive is recorded.
     drive: bool,
+    peak_loads: PeakLoads,
 }
 
 /// A complete sample: instant and shaft, and the values of all channels of the run in their order.
@@ -51,6 +53,7 @@ pub struct RecordedSample {
 pub struct RecorderSnapshot {
     filter: ProbeFilter,
     waiting: VecDeque<RecordedSample>,
+    peak_loads: PeakLoads,
 }
 
 impl RecorderSnapshot {
@@ -61,8 +64,8 @@ impl RecorderSnapshot {
 }
 
 impl Recorder {
-    /// Channels of a run of `system`: every probe; per ball bearing its force on the shaft and its cage
-    /// angle, with free balls their motion, slip, forces and losses; the terms of the energy balance, with the work of a torque
+    /// Channels of a run of `system`: every probe; per bearing its force on the shaft and, of one with a cage,
+    /// its angle, with free balls their motion, slip, forces and losses; the terms of the energy balance, with the work of a torque
     /// drive; with free balls every probe as mean over the sampling interval, into which collisions do not alias.
     pub fn new(model: &Model, system: &System, sample_rate: f64) -> Self {
         let mut channels: Vec<HistoryChannel> =
@@ -76,26 +79,32 @@ impl Recorder {
                 direction: direction.into(),
                 values: Series::default(),
             };
+        let has_cage = |name: &str| {
+            let site = model.bearings.iter().find(|site| site.name == name);
+            site.is_some_and(|site| site.bearing.cage().is_some())
+        };
         for interface in &system.interfaces {
             let site = &interface.name;
             for axis in ["x", "y", "z"] {
-                channels.push(plain(format!("{site}_force_{axis}"), "N", "force", site, axis));
+                channels.push(plain(run_channels::bearing_force(site, axis), "N", "force", site, axis));
             }
-            channels.push(plain(format!("{site}_cage_angle"), "rad", "angle", site, "cage"));
+            if has_cage(site) {
+                channels.push(plain(run_channels::cage_angle(site), "rad", "angle", site, "cage"));
+            }
             for c in interface.element.bodies().map_or(&[][..], |bodies| bodies.channels()) {
                 channels.push(plain(format!("{site}_{}", c.name), c.unit, c.quantity, site, c.direction));
             }
         }
         let drive = system.drive.is_some();
-        for name in ENERGIES.into_iter().chain(drive.then_some("drive")) {
-            channels.push(plain(format!("energy_{name}"), "J", "energy", "machine", ""));
+        for term in run_channels::ENERGIES.into_iter().chain(drive.then_some(run_channels::DRIVE_ENERGY)) {
+            channels.push(plain(run_channels::energy(term), "J", "energy", "machine", ""));
         }
         if system.has_bodies() {
             channels.extend(model.probes.iter().map(|probe| {
                 let channel = probe_channel(model, probe);
                 // Another quantity than that of the probe, so that figures and analyses do not show it twice.
                 let quantity = format!("mean {}", channel.quantity);
-                HistoryChannel { name: interval_mean_name(&channel.name), quantity, ..channel }
+                HistoryChannel { name: run_channels::interval_mean(&channel.name), quantity, ..channel }
             }));
         }
         Self {
@@ -106,7 +115,12 @@ impl Recorder {
             kept: (0..channels.len()).collect(),
             keeps_samples: true,
             drive,
-            directions: system.interfaces.iter().map(|i| i.element.relative_dofs().min(3)).collect(),
+            peak_loads: PeakLoads::default(),
+            directions: system
+                .interfaces
+                .iter()
+                .map(|i| (i.element.relative_dofs().min(3), has_cage(&i.name)))
+                .collect(),
             history: History { sample_rate, channels, ..History::default() },
         }
     }
@@ -125,6 +139,11 @@ impl Recorder {
         self
     }
 
+    /// The largest loads of the bearings at the samples so far.
+    pub fn peak_loads(&self) -> Vec<PeakLoad> {
+        self.peak_loads.found()
+    }
+
     /// The record of a run that has ended.
     pub fn into_history(mut self) -> History {
         self.finish();
@@ -133,27 +152,34 @@ impl Recorder {
 
     /// What it takes to go on after the last sample.
     pub fn snapshot(&self) -> RecorderSnapshot {
-        RecorderSnapshot { filter: self.filter.clone(), waiting: self.waiting.clone() }
+        RecorderSnapshot {
+            filter: self.filter.clone(),
+            waiting: self.waiting.clone(),
+            peak_loads: self.peak_loads.clone(),
+        }
     }
 
     /// Goes on after the samples of a snapshot.
     pub fn resume(&mut self, snapshot: RecorderSnapshot) {
         (self.filter, self.waiting) = (snapshot.filter, snapshot.waiting);
+        self.peak_loads = snapshot.peak_loads;
     }
 
     /// Records one sample; returns those that are complete with it.
     pub fn record(&mut self, sample: &Sample) -> &[RecordedSample] {
         let state = sample.state;
+        self.peak_loads.observe(sample.system, state);
         let mut recorded = self.spare.pop().unwrap_or_default();
         (recorded.time, recorded.angle, recorded.speed) = (state.time, state.spin.angle, state.spin.speed);
         let row = &mut recorded.values;
         row.clear();
         row.extend_from_slice(sample.channels);
         let bearings = state.reactions.iter().zip(&state.rotations);
-        for (k, ((reaction, rotation), directions)) in bearings.zip(&self.directions).enumerate() {
+        for (k, ((reaction, rotation), (directions, has_cage))) in bearings.zip(&self.directions).enumerate()
+        {
             let along = |k: usize| if k < *directions { reaction.force[k] } else { 0.0 };
             row.extend([along(0), along(1), along(2)]);
-            row.push(rotation.cage_angle);
+            row.extend(has_cage.then_some(rotation.cage_angle));
             sample.system.read_bodies(k, state, row);
         }
         let e = sample.energy;
@@ -201,17 +227,8 @@ impl Recorder {
     }
 }
 
-/// Name of the channel with a probe's means over the sampling interval.
-pub(super) fn interval_mean_name(probe: &str) -> String {
-    format!("{probe}_interval_mean")
-}
-
-const ENERGIES: [&str; 8] =
-    ["kinetic", "strain", "contact", "work", "parametric", "damping_loss", "contact_loss", "residual"];
-
 /// Channel with name, unit, station and direction of a probe, without values.
 pub(super) fn probe_channel(model: &Model, probe: &Probe) -> HistoryChannel {
-    let rotation = probe.direction[3..].iter().any(|d| *d != 0.0);
     let names = ["x", "y", "z", "theta_x", "theta_y", "theta_z"];
     let single = (0..6)
         .find(|&k| probe.direction[k] == 1.0 && probe.direction.iter().filter(|d| **d != 0.0).count() == 1);
@@ -236,7 +253,7 @@ pub(super) fn probe_channel(model: &Model, probe: &Probe) -> HistoryChannel {
     };
     HistoryChannel {
         name: probe.name.clone(),
-        unit: unit_of(probe.quantity, rotation).into(),
+        unit: unit_of(probe.quantity, is_rotation(&probe.direction)).into(),
         quantity: quantity.into(),
         station,
         direction,

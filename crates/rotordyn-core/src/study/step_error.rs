@@ -71,6 +71,14 @@ impl Checkpoints {
     }
 }
 
+/// Length of a run that [`Machine::step_error`] needs: time \[s\], and turns of the shaft at about constant speed.
+pub fn run_for_step_error(sample_rate: f64, orders: &[f64], integrator: Integrator) -> (f64, f64) {
+    let compared = if integrator == Integrator::RungeKutta4 { SHORT_COMPARED } else { COMPARED };
+    let highest = orders.iter().copied().fold(1.0, f64::max);
+    let samples = (INTERVALS * (FEWEST_SAMPLES - 1) + 1) as f64;
+    (samples / sample_rate, FEWEST_CYCLES / highest * INTERVALS as f64 / compared as f64)
+}
+
 impl Machine {
     /// Estimates the step's error in the levels of the given orders, of all probes.
     ///

@@ -13,6 +13,7 @@ mod load_corners;
 mod loads;
 mod numbers;
 mod panels;
+pub mod peak_loads;
 pub mod perturbed_trajectory;
 pub mod reduction;
 pub mod run;

@@ -397,7 +397,7 @@ impl Run {
             system.channels.read(state.motion(), &mut channels.steps);
             channels.is_divided.push(parts > 1);
         }
-        check_divergence(system, state)
+        check_divergence(system, state, stepper)
     }
 }
 

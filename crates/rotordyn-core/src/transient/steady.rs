@@ -233,7 +233,7 @@ pub fn run_steady_from(
             Some(trajectory) => trajectory.repeat_step(system, state, step),
             None => Ok(()),
         })?;
-        check_divergence(system, &run.state)?;
+        check_divergence(system, &run.state, &stepper)?;
         let now = (turns(&run.state) + ROUND_OFF).floor();
         let passed = now > times.last_section;
         if let Some(trajectory) = &mut perturbed {

@@ -169,6 +169,21 @@ impl Stepper {
         matches!(self.method, Method::Adaptive { .. })
     }
 
+    /// What helps against divergence that the method causes; empty for an implicit one.
+    fn advice(&self, system: &System) -> String {
+        let (name, smaller) = match self.method {
+            Method::Implicit(_) => return String::new(),
+            Method::Fixed(_) => ("rk4", "lower step"),
+            Method::Adaptive { .. } => {
+                ("dormand-prince", "lower step, relative_tolerance and absolute_tolerance")
+            }
+        };
+        // Free bodies need it.
+        let other =
+            if system.has_bodies() { "" } else { ", or leave out integrator, whose default is implicit" };
+        format!("; the explicit integrator {name} is unstable if its steps are too long: {smaller}{other}")
+    }
+
     /// Newton iterations spent and effective matrices inverted by an implicit method.
     pub fn iteration_counts(&self) -> (u64, u64) {
         match &self.method {
@@ -375,7 +390,7 @@ fn no_convergence(
 ///
 /// # Errors
 /// [`PhysicsError::Diverged`] naming the largest displacement.
-pub fn check_divergence(system: &System, state: &State) -> Result<(), PhysicsError> {
+pub fn check_divergence(system: &System, state: &State, stepper: &Stepper) -> Result<(), PhysicsError> {
     // Without early ends, for vector instructions.
     let are_finite = |y: &[f64]| y.iter().fold(true, |all, v| all & v.is_finite());
     let are_small = |d: &[f64]| d.iter().fold(true, |all, d| all & (d.abs() < MAX_DISPLACEMENT));
@@ -389,6 +404,7 @@ pub fn check_divergence(system: &System, state: &State) -> Result<(), PhysicsErr
         time: state.time,
         speed_rpm: rpm(state.spin.speed),
         value,
+        advice: stepper.advice(system),
     })
 }
 

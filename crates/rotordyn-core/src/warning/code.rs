@@ -52,6 +52,14 @@ codes! {
         "The bore of a bearing, stated or of its designation, differs from the diameter of the shaft at its seat by more than \
          10 %.",
         "choose the bearing of the seat's size, or the diameter of the section under it";
+    DiscFit, "disc-fit", Serious,
+        "The bore of a disc by dimensions is more than 25 % larger than the shaft in it, or its outer diameter less than that of \
+         the shaft. A disc where the shaft has no element, or on another disc, is not compared.",
+        "check the units of the diameters, or the diameter of the section under it";
+    DiscSize, "disc-size", Serious,
+        "A disc by dimensions is larger than the machine: a diameter of more than five, or a thickness of more than two lengths \
+         of the shaft. Its inertia makes modes at almost 0 Hz.",
+        "check the unit of diameter and thickness";
     OverlappingDiscs, "overlapping-discs", Serious,
         "Two discs of stated width occupy the same length of the shaft: usually one disc given twice.",
         "check stations and widths, or state one disc with the sum of both masses";
@@ -160,7 +168,8 @@ codes! {
          the modes, and steady responses do not exist.",
         "check signs and units of stiffness coefficients and of the axial force";
     UndampedPeak, "undamped-peak", Caution,
-        "A mode in the range of the response has no damping: the response is infinite there.",
+        "A mode in the range of the response has no damping: the response is infinite there; or so little (amplification factor \
+         above 50000) that the height of its peak says nothing.",
         "state damping: [damping] modal, or damping of supports";
     LinearRange, "linear-range", Serious,
         "A linear response moves a bearing by more than its clearance, or loads it with more than its static load: its \

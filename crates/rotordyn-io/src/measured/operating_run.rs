@@ -60,7 +60,7 @@ fn ball_pass_orders(model: &Model, recording: &Recording) -> Vec<f64> {
     let mut out: Vec<f64> = Vec::new();
     for site in &model.bearings {
         let Some(orders) = site.bearing.characteristic_orders() else { continue };
-        let name = format!("{}_cage_angle", site.name);
+        let name = rotordyn_core::model::run_channels::cage_angle(&site.name);
         let channel = recording.channels.iter().find(|(channel, _)| channel.name == name);
         let cage = channel.and_then(|(_, values)| Some(turned(values)? / shaft?));
         let ball_pass =

@@ -27,7 +27,7 @@ keys! {
 
 keys! {
     /// `[disc.x]`.
-    static DISC: DiscKeys = "A disc on the shaft, by its dimensions or by its mass." {
+    pub(super) static DISC: DiscKeys = "A disc on the shaft, by its dimensions or by its mass." {
         station: Text = text("name of a station", "Where it sits.").example("\"A\"");
         outer_diameter: Quantity = quantity(positive(LENGTH), "Outer diameter; with a mass only for pictures.")
             .required("without mass");

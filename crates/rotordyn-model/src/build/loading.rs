@@ -194,7 +194,7 @@ keys! {
     pub(super) static DIRECTION: DirectionKeys {
         direction: Text = text("x, y, z, or tx, ty, tz for a rotation, - for the opposite", "Direction by name.")
             .required("").example("\"x\"");
-        components: Quantities = quantities(any(NUMBER), "three, or six with rotations", "Direction by components.")
+        components: Quantities = quantities(any(NUMBER), "three, or six with rotations", "Direction by components, scaled to unit translation, else to unit rotation; rotations in rad per metre of it.")
             .named("direction").required("").example("[1, 1, 0]");
     }
 }

@@ -7,10 +7,13 @@ mod bearing;
 mod bearing_study;
 mod bifurcation_parameter;
 pub mod catalogue;
+mod channel_names;
 mod connections;
 mod contact;
 mod default_points;
+mod default_ranges;
 mod defects;
+mod disc_fit;
 mod free_ball;
 mod free_cage;
 mod imperfections;
@@ -27,6 +30,8 @@ mod plausibility;
 mod radial_bearing;
 mod rotor;
 mod rotor_studies;
+mod rounding;
+mod run_analyses;
 mod run_keys;
 mod run_up;
 mod shaft;
@@ -166,10 +171,12 @@ pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Mo
     }
     model.studies = study::read(&top, &model, &places);
     if log.error_count() == 0 {
+        channel_names::check(&top, &model);
         topology::check(&top, &model);
         let sites = top.items(&bearing::TOP.bearing);
         mounting::check_axial_location(&sites, &model, log);
         mounting::check_free_rotation(&top, &model);
+        disc_fit::check(&top, &model);
         plausibility::check(&top, &model, (&TOP.material, [&MATERIAL.young, &MATERIAL.density]));
         let bearings = model.bearings.iter().map(|s| (&*s.name, &s.bearing));
         mounting::check_mounted_preloads(&sites, bearings, true, log);

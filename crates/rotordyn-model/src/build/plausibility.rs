@@ -8,6 +8,7 @@ use crate::file::reader::Reader;
 use crate::file::tree::{Table, Value};
 use crate::{BearingSite, Model};
 use rotordyn_bearing::Bearing;
+use rotordyn_bearing::rating::limit_checks::{speed_limit, speed_parameter};
 use rotordyn_core::element::{Anchor, Disc, Material};
 use rotordyn_core::warning::Code;
 use std::collections::HashSet;
@@ -32,8 +33,6 @@ const SECTION_RATIO: f64 = 30.0;
 const BORE_DIFFERENCE: f64 = 0.1;
 /// Overlap of two parts along the shaft, as a share of the narrower one.
 const OVERLAP: f64 = 0.1;
-/// Speed factor n d_m of deep groove and of angular contact bearings \[mm rpm\].
-const SPEED_FACTORS: [f64; 2] = [1.5e6, 2.5e6];
 /// Balance quality grade e ω \[m/s\]: G 100 of ISO 21940-11.
 const BALANCE_QUALITY: f64 = 0.1;
 
@@ -244,8 +243,8 @@ fn bearing_speeds(top: &Reader, model: &Model) {
     let rpm = model.profile.top_speed().abs() * 60.0 / TAU;
     for site in &model.bearings {
         let Some(ball) = site.bearing.ball() else { continue };
-        let limit = SPEED_FACTORS[usize::from(ball.geometry.contact_angle > 0.0)];
-        let factor = rpm * 1e3 * ball.geometry.pitch_diameter;
+        let limit = speed_limit(ball);
+        let factor = speed_parameter(ball, model.profile.top_speed());
         if factor > limit {
             let message = format!(
                 "bearing.{} turns at n d_m = {factor:.3e} mm rpm ({rpm:.0} rpm, pitch diameter {:.4} mm), above the \

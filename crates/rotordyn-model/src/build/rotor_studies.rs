@@ -1,5 +1,6 @@
 //! Studies of rotordynamics standards: critical speed map, torsional modes, operating speeds.
 
+use super::default_ranges::max_speed_or;
 use super::increasing::check_increasing;
 use super::orders::{ORDER, orders};
 use crate::Model;
@@ -23,7 +24,8 @@ keys! {
 keys! {
     /// `[study.critical_map]`.
     static CRITICAL_MAP: CriticalMapKeys = "Undamped critical speeds over the radial stiffness of all bearings." {
-        max_speed: Quantity = quantity(positive(SPEED), "Highest speed.").example("\"6000 rpm\"");
+        max_speed: Quantity = quantity(positive(SPEED), "Highest speed.")
+            .computed("three times the highest of [speed], else 6000 rpm").example("\"6000 rpm\"");
         lowest_stiffness: Quantity = quantity(positive(STIFFNESS), "Lowest stiffness.")
             .computed("a decade below that of the bearings").example("\"1e5 N/m\"");
         highest_stiffness: Quantity = quantity(positive(STIFFNESS), "Highest stiffness.")
@@ -35,7 +37,8 @@ keys! {
 keys! {
     /// `[study.torsional]`.
     static TORSIONAL: TorsionalKeys = "Torsional natural frequencies and the orders that meet them." {
-        max_speed: Quantity = quantity(positive(SPEED), "Highest speed.").example("\"6000 rpm\"");
+        max_speed: Quantity = quantity(positive(SPEED), "Highest speed.")
+            .computed("1.5 times the highest of [speed], else 6000 rpm").example("\"6000 rpm\"");
         orders: Special = special(ORDER, "Orders of the excitation.").computed("1 and 2")
             .example("[1, 2, 6]");
         modes: Count = count([1, 1000], "Number of modes.").default("6");
@@ -49,7 +52,7 @@ pub(super) const OPERATING_SPEEDS: &str = "Lowest and highest operating speed, f
 
 pub(super) fn read(all: &Reader, model: &Model, studies: &mut Studies) {
     if let Some(r) = all.table(&ROTOR_STUDY.critical_map) {
-        studies.critical_map = Some(critical_map(&r));
+        studies.critical_map = Some(critical_map(&r, model));
         if model.bearings.is_empty() && r.has_no_errors() {
             let problem = Problem::new(Kind::Conflict, &r.span, "study.critical_map needs a bearing");
             r.log.error(
@@ -60,7 +63,7 @@ pub(super) fn read(all: &Reader, model: &Model, studies: &mut Studies) {
     }
     if let Some(r) = all.table(&ROTOR_STUDY.torsional) {
         studies.torsional = Some(TorsionalStudy {
-            max_speed: r.value(&TORSIONAL.max_speed),
+            max_speed: max_speed_or(&r, &TORSIONAL.max_speed, model, 1.5),
             orders: excitation_orders(&r, model),
             modes: r.count(&TORSIONAL.modes),
             operating_speeds: operating_speeds(&r, &TORSIONAL.operating_speeds),
@@ -78,10 +81,10 @@ fn excitation_orders(r: &Reader, model: &Model) -> Vec<f64> {
     vec![1.0, 2.0]
 }
 
-fn critical_map(r: &Reader) -> CriticalMapStudy {
+fn critical_map(r: &Reader, model: &Model) -> CriticalMapStudy {
     let [low, high] = [&CRITICAL_MAP.lowest_stiffness, &CRITICAL_MAP.highest_stiffness];
     let study = CriticalMapStudy {
-        max_speed: r.value(&CRITICAL_MAP.max_speed),
+        max_speed: max_speed_or(r, &CRITICAL_MAP.max_speed, model, 3.0),
         lowest_stiffness: r.get(low),
         highest_stiffness: r.get(high),
         points: r.count(&CRITICAL_MAP.points),

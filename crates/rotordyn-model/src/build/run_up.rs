@@ -1,6 +1,7 @@
 //! `[study.run_up]`.
 
 use super::loading;
+use super::rounding::rounded_up;
 use super::run_keys::{
     IntegratorKeys, RUN_STEP, StepKeys, default_defect_step_us, default_integrator, integrator, top_speed,
 };
@@ -8,6 +9,7 @@ use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{
     Count, Flag, Group, Quantity, Table, count, flag, keys, not_negative, positive, quantity,
 };
+use crate::file::quantities::declared_default;
 use crate::file::reader::Reader;
 use crate::study::{MotionSettings, RunUpStudy};
 use crate::{Drive, Model};
@@ -28,7 +30,7 @@ keys! {
         defect_step: Quantity = quantity(positive(TIME),
             "Greatest time step while a ball is on a local defect, and until the vibration after it has decayed; not with free balls.")
             .computed("a 40th of the shortest passage over a defect at the highest speed, in two digits").example("\"10 us\"");
-        sample_rate: Quantity = quantity(positive(FREQUENCY), "Sampling rate of the channels; what probes hold above 0.39 of it is filtered out.").default("2 kHz");
+        sample_rate: Quantity = quantity(positive(FREQUENCY), "Sampling rate; above 0.39 of it probes are filtered. By default more than 2 kHz if max_order of study.orders needs it.").default("2 kHz");
         cutoff: Quantity = quantity(positive(FREQUENCY), "Modes below it are kept, with static correction modes.")
             .computed("all modes").example("\"2 kHz\"");
         from_equilibrium: Flag = flag("Start at static equilibrium, otherwise at rest without loads.")
@@ -45,8 +47,10 @@ keys! {
     }
 }
 
-/// The study without its default step, which depends on the order cuts; `has_cuts`: whether the file has `[study.orders]`.
-pub(super) fn read(top: &Reader, r: &Reader, model: &Model, has_cuts: bool) -> RunUpStudy {
+/// The study without its default step, which depends on the order cuts; `has_cuts`: whether the file has `[study.orders]`;
+/// `least_rate`: sampling rate that its orders need \[Hz\].
+pub(super) fn read(top: &Reader, r: &Reader, model: &Model, has_cuts: bool, least_rate: f64) -> RunUpStudy {
+    let sample_rate = sample_rate(r, least_rate);
     if !top.has(&loading::TOP.speed) {
         let problem = Problem::new(Kind::MissingKey, &r.span, "study.run_up needs a speed profile");
         r.log.error(problem.hint("add [speed] with profile = \"ramp\", to = \"1200 rpm\", ramp = \"10 s\""));
@@ -58,12 +62,23 @@ pub(super) fn read(top: &Reader, r: &Reader, model: &Model, has_cuts: bool) -> R
         integrator: integrator(r, default_integrator(model), model),
         step: r.get(&RUN_STEP.step).unwrap_or(f64::INFINITY),
         defect_step: defect_step(r, model),
-        sample_rate: r.value(&RUN_UP.sample_rate),
+        sample_rate,
         cutoff: r.or(&RUN_UP.cutoff, f64::INFINITY),
         from_equilibrium: r.flag(&RUN_UP.from_equilibrium),
         cage_phases: cage_phases(r, model, has_cuts),
-        motion: motion(r),
+        motion: motion(r, sample_rate),
     }
+}
+
+/// The sampling rate \[Hz\]; by default enough for the orders, in two digits.
+fn sample_rate(r: &Reader, least: f64) -> f64 {
+    let key = &RUN_UP.sample_rate;
+    if r.has(key) || least <= declared_default(key) {
+        return r.value(key);
+    }
+    let rate = rounded_up(least);
+    r.taken_by_default(key, format!("\"{rate} Hz\""));
+    rate
 }
 
 /// Step on local defects \[s\]; infinite without.
@@ -76,12 +91,11 @@ fn defect_step(r: &Reader, model: &Model) -> f64 {
 }
 
 /// Frames of the recorded motion: not faster than the samples, within a time that has some.
-fn motion(r: &Reader) -> Option<MotionSettings> {
+fn motion(r: &Reader, sample_rate: f64) -> Option<MotionSettings> {
     let [rate, from, to] = [&RUN_UP.motion_rate, &RUN_UP.motion_from, &RUN_UP.motion_to];
     if ![rate, from, to].into_iter().any(|key| r.has(key)) {
         return None;
     }
-    let sample_rate = r.value(&RUN_UP.sample_rate);
     let settings =
         MotionSettings { rate: r.or(rate, sample_rate), from: r.or(from, 0.0), to: r.or(to, f64::INFINITY) };
     if settings.rate > sample_rate {

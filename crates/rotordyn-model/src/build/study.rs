@@ -2,29 +2,30 @@
 
 use super::bearing_study::{self, BearingStudyKeys};
 use super::default_points;
+use super::default_ranges::{self, DefaultRange, spaced_or};
 use super::increasing::check_increasing;
 use super::loading::{DirectionKeys, QUANTITIES, anchor_and_direction};
 use super::orders::{ORDER, orders};
 use super::places::{AnchorKeys, Places};
 use super::rotor_studies::{self, RotorStudyKeys};
+use super::run_analyses::{self, ORDERS_TABLE, SPECTROGRAM_TABLE};
 use super::run_keys::{RUN_STEP, channels, default_step_us, top_speed};
 use super::run_up::{self, RUN_UP, RUN_UP_TABLE};
 use super::steady::{self, SteadyStudyKeys};
 use super::work_limits;
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{
-    Count, Flag, Group, Key, NamedTables, Quantity, Spaced, Special, SubTable, Table, Texts, Words, below,
-    count, flag, keys, named_tables, not_negative, positive, quantity, spaced, special, sub_table, texts,
-    words,
+    Count, Flag, Group, Key, NamedTables, Quantity, Spaced, Special, SubTable, Table, Texts, Words, count,
+    flag, keys, named_tables, not_negative, positive, quantity, spaced, special, sub_table, texts, words,
 };
 use crate::file::reader::Reader;
 use crate::study::{
-    BearingStudy, CampbellStudy, CriticalStudy, EquilibriumStudy, Excitation, FrfStudy, ModalStudy,
-    OrderStudy, SpectrogramStudy, Studies, UnbalanceStudy, WindowKind,
+    BearingStudy, CampbellStudy, CriticalStudy, EquilibriumStudy, Excitation, FrfStudy, ModalStudy, Studies,
+    UnbalanceStudy,
 };
 use crate::{Model, Probe, Quantity as MotionQuantity};
 use rotordyn_bearing::Bearing;
-use rotordyn_units::{FREQUENCY, NUMBER, SPEED, TIME};
+use rotordyn_units::{FREQUENCY, SPEED};
 
 keys! {
     /// Tables of this file.
@@ -34,7 +35,7 @@ keys! {
 }
 
 static STUDY_TABLE: Table = Table {
-    meaning: "Studies of the machine; each is done if its table is in the file, with defaults if that is empty.",
+    meaning: "Studies of the machine; each is done if its table is in the file, by defaults if that is empty; bifurcation needs its parameter.",
     groups: &[
         Group::always(StudyKeys::LIST),
         Group::always(RotorStudyKeys::LIST),
@@ -78,7 +79,8 @@ keys! {
 keys! {
     /// `[study.campbell]`.
     static CAMPBELL: CampbellKeys = "Campbell diagram of the linearised machine." {
-        speeds: Spaced = spaced(not_negative(SPEED), "Speeds, increasing.").example(SPEEDS);
+        speeds: Spaced = spaced(not_negative(SPEED), "Speeds, increasing.")
+            .computed("25 up to the highest of [speed], else 3000 rpm").example(SPEEDS);
         modes: Count = count([1, 10_000], "Number of modes.").default("12");
         orders: Special = special(ORDER, "Order lines for critical speeds.").default("1");
         speed_dependent_bearings: Flag = flag("Linearise the bearings at every speed, not only at the first.")
@@ -89,7 +91,8 @@ keys! {
 keys! {
     /// `[study.critical]`.
     static CRITICAL: CriticalKeys = "Critical speeds." {
-        max_speed: Quantity = quantity(positive(SPEED), "Highest speed.").example("\"6000 rpm\"");
+        max_speed: Quantity = quantity(positive(SPEED), "Highest speed.")
+            .computed("three times the highest of [speed], else 6000 rpm").example("\"6000 rpm\"");
         orders: Special = special(ORDER, "Orders of the excitation.").default("1");
     }
 }
@@ -103,7 +106,7 @@ keys! {
     /// `[study.frf]`.
     static FRF: FrfKeys {
         frequencies: Spaced = spaced(not_negative(FREQUENCY), "Frequencies, increasing.")
-            .example("{ from = \"1 Hz\", to = \"400 Hz\", step = \"0.25 Hz\" }");
+            .computed("1 to 500 Hz in steps of 0.25 Hz").example("{ from = \"1 Hz\", to = \"400 Hz\", step = \"0.25 Hz\" }");
         quantity: Words<MotionQuantity> = words(&[
             ("receptance", MotionQuantity::Displacement),
             ("mobility", MotionQuantity::Velocity),
@@ -139,60 +142,11 @@ static UNBALANCE_TABLE: Table = Table {
 keys! {
     /// `[study.unbalance]`.
     static UNBALANCE: UnbalanceStudyKeys {
-        speeds: Spaced = spaced(not_negative(SPEED), "Speeds, increasing.").example(SPEEDS);
+        speeds: Spaced = spaced(not_negative(SPEED), "Speeds, increasing.")
+            .computed("200 up to 1.5 times the highest of [speed], else 6000 rpm").example(SPEEDS);
         refine: Flag = flag("Add speeds around the critical speeds.").default("true");
         operating_speeds: Spaced = spaced(positive(SPEED), rotor_studies::OPERATING_SPEEDS)
             .computed("the highest of [speed]").example("\"2800, 3200 rpm\"");
-    }
-}
-
-keys! {
-    /// Windows of `[study.spectrogram]` and `[study.orders]`.
-    static WINDOW: WindowKeys {
-        channels: Texts = texts("names of probes", "Channels.").computed("all vibration channels")
-            .example("[\"disc_x\"]");
-        window: Words<WindowKind> = words(&[
-            ("rectangular", WindowKind::Rectangular),
-            ("hann", WindowKind::Hann),
-            ("hamming", WindowKind::Hamming),
-            ("blackman", WindowKind::Blackman),
-            ("flat-top", WindowKind::FlatTop),
-        ], "Window function.").default("hann");
-        overlap: Quantity = quantity(below(NUMBER, [0.0, 1.0]), "Overlap of successive windows.").default("0.75");
-    }
-}
-
-static SPECTROGRAM_TABLE: Table = Table {
-    meaning: "Spectrograms of the run-up over time and speed.",
-    groups: &[Group::always(WindowKeys::LIST), Group::always(SpectrogramKeys::LIST)],
-};
-
-keys! {
-    /// `[study.spectrogram]`.
-    static SPECTROGRAM: SpectrogramKeys {
-        length: Quantity = quantity(positive(TIME), "Length of a window.").default("1 s");
-        max_frequency: Quantity = quantity(positive(FREQUENCY), "Highest frequency.")
-            .computed("half the sampling rate");
-        dynamic_range_db: Quantity = quantity(positive(NUMBER), "Range of the colours in dB.").default("60");
-        orders: Special = special(ORDER, "Order lines.").default("1");
-    }
-}
-
-static ORDERS_TABLE: Table = Table {
-    meaning: "Order tracking of the run-up.",
-    groups: &[Group::always(WindowKeys::LIST), Group::always(OrderKeys::LIST)],
-};
-
-keys! {
-    /// `[study.orders]`.
-    static ORDERS: OrderKeys {
-        resolution: Quantity = quantity(positive(NUMBER), "Order resolution.").default("0.05");
-        max_order: Quantity = quantity(positive(NUMBER),
-            "Highest order; if not given, at least a tenth above the highest cut.").default("20");
-        cuts: Special = special(ORDER, "Order cuts: levels of these orders over speed.").default("1");
-        bandwidth: Quantity = quantity(positive(NUMBER),
-            "With it the Vold-Kalman filter also tracks amplitude and phase of the cuts' orders: its -3 dB bandwidth in orders.")
-            .computed("not tracked").example("0.2");
     }
 }
 
@@ -213,7 +167,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
     }
     if let Some(r) = all.table(&STUDY.campbell) {
         studies.campbell = Some(CampbellStudy {
-            speeds: speeds(&r, &CAMPBELL.speeds),
+            speeds: speeds(&r, &CAMPBELL.speeds, &default_ranges::campbell(model)),
             modes: r.count(&CAMPBELL.modes),
             orders: orders(&r, &CAMPBELL.orders, model),
             speed_dependent_bearings: r.flag(&CAMPBELL.speed_dependent_bearings),
@@ -221,7 +175,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
         r.finish();
     }
     if let Some(r) = all.table(&STUDY.critical) {
-        let max_speed = r.value(&CRITICAL.max_speed);
+        let max_speed = default_ranges::max_speed_or(&r, &CRITICAL.max_speed, model, 3.0);
         studies.critical = Some(CriticalStudy { max_speed, orders: orders(&r, &CRITICAL.orders, model) });
         r.finish();
     }
@@ -231,7 +185,8 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
     }
     if let Some(r) = all.table(&STUDY.unbalance) {
         let responses = responses(&r, model, MotionQuantity::Displacement);
-        let (speeds, refine) = (speeds(&r, &UNBALANCE.speeds), r.flag(&UNBALANCE.refine));
+        let speeds = speeds(&r, &UNBALANCE.speeds, &default_ranges::unbalance(model));
+        let refine = r.flag(&UNBALANCE.refine);
         let operating_speeds = rotor_studies::operating_speeds(&r, &UNBALANCE.operating_speeds);
         studies.unbalance = Some(UnbalanceStudy { speeds, refine, responses, operating_speeds });
         if model.unbalances.is_empty() && r.has_no_errors() {
@@ -240,19 +195,20 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
         }
         r.finish();
     }
-    let run_up_table = all.table(&STUDY.run_up);
+    let (run_up_table, orders_table) = (all.table(&STUDY.run_up), all.table(&STUDY.orders));
+    let orders = orders_table.as_ref().map(|r| run_analyses::orders_of_run(r, model));
     if let Some(r) = &run_up_table {
-        studies.run_up = Some(run_up::read(top, r, model, all.has(&STUDY.orders)));
+        let least_rate = orders
+            .as_ref()
+            .map_or(0.0, |(study, _)| run_analyses::rate_for(study.max_order, top_speed(model)));
+        studies.run_up = Some(run_up::read(top, r, model, all.has(&STUDY.orders), least_rate));
     }
-    let sample_rate = studies.run_up.as_ref().map_or(0.0, |s| s.sample_rate);
     if let Some(r) = all.table(&STUDY.spectrogram) {
-        needs_run_up(&r, &studies);
-        studies.spectrogram = Some(spectrogram(&r, model, sample_rate));
+        studies.spectrogram = Some(run_analyses::spectrogram(&r, model, studies.run_up.as_ref()));
         r.finish();
     }
-    if let Some(r) = all.table(&STUDY.orders) {
-        needs_run_up(&r, &studies);
-        studies.orders = Some(order_spectra(&r, model));
+    if let (Some(r), Some(study)) = (orders_table, orders) {
+        studies.orders = Some(run_analyses::fitted_orders(&r, study, model, studies.run_up.as_ref()));
         r.finish();
     }
     if let (Some(r), Some(study)) = (run_up_table, &mut studies.run_up) {
@@ -297,27 +253,14 @@ fn bearing<'a>(
     Some(study)
 }
 
-fn needs_run_up(r: &Reader, studies: &Studies) {
-    if studies.run_up.is_none() {
-        let problem = Problem::new(Kind::MissingKey, &r.span, format!("{} needs [study.run_up]", r.path));
-        r.log.error(problem.hint("add [study.run_up], whose channels are analysed"));
-    }
-}
-
-fn speeds(r: &Reader, key: &Key<Spaced>) -> Vec<f64> {
-    if !r.has(key) {
-        r.missing(key);
-    }
-    let speeds = r.spaced(key).unwrap_or_else(|| vec![0.0]);
+fn speeds(r: &Reader, key: &Key<Spaced>, by_default: &DefaultRange) -> Vec<f64> {
+    let speeds = spaced_or(r, key, by_default);
     check_increasing(r, key, &speeds);
     speeds
 }
 
 fn frf(r: &Reader, model: &Model, places: &Places) -> FrfStudy {
-    if !r.has(&FRF.frequencies) {
-        r.missing(&FRF.frequencies);
-    }
-    let frequencies = r.spaced(&FRF.frequencies).unwrap_or_default();
+    let frequencies = spaced_or(r, &FRF.frequencies, &default_ranges::frequencies());
     check_increasing(r, &FRF.frequencies, &frequencies);
     let quantity = r.word(&FRF.quantity);
     let read = |(name, excitation): (&str, Reader)| {
@@ -348,46 +291,4 @@ fn responses(r: &Reader, model: &Model, quantity: MotionQuantity) -> Vec<Probe> 
         r.log.error(problem.hint("add [probe.NAME] with at, direction and quantity"));
     }
     chosen
-}
-
-fn spectrogram(r: &Reader, model: &Model, sample_rate: f64) -> SpectrogramStudy {
-    let highest = &SPECTROGRAM.max_frequency;
-    let max_frequency = r.or(highest, 0.5 * sample_rate);
-    if max_frequency > 0.5 * sample_rate && sample_rate > 0.0 {
-        let message = format!("{} is above half the sampling rate", r.name(highest));
-        let problem = Problem::new(Kind::OutOfRange, &r.span_of(highest), message);
-        r.log.error(problem.hint("raise study.run_up.sample_rate"));
-    }
-    SpectrogramStudy {
-        channels: channels(r, &WINDOW.channels, model),
-        window: r.word(&WINDOW.window),
-        length: r.value(&SPECTROGRAM.length),
-        overlap: r.value(&WINDOW.overlap),
-        max_frequency,
-        dynamic_range_db: r.value(&SPECTROGRAM.dynamic_range_db),
-        orders: orders(r, &SPECTROGRAM.orders, model),
-    }
-}
-
-fn order_spectra(r: &Reader, model: &Model) -> OrderStudy {
-    let cuts = orders(r, &ORDERS.cuts, model);
-    let highest_cut = cuts.iter().copied().fold(0.0, f64::max);
-    let highest = &ORDERS.max_order;
-    let mut max_order = r.value(highest);
-    if !r.has(highest) {
-        max_order = max_order.max(1.1 * highest_cut);
-    } else if max_order < highest_cut {
-        let message = format!("{} is below the cut at order {highest_cut:.4}", r.name(highest));
-        let problem = Problem::new(Kind::OutOfRange, &r.span_of(highest), message);
-        r.log.error(problem.hint("raise it, or remove the cut"));
-    }
-    OrderStudy {
-        channels: channels(r, &WINDOW.channels, model),
-        resolution: r.value(&ORDERS.resolution),
-        max_order,
-        overlap: r.value(&WINDOW.overlap),
-        window: r.word(&WINDOW.window),
-        cuts,
-        bandwidth: r.get(&ORDERS.bandwidth),
-    }
 }

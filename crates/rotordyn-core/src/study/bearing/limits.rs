@@ -7,6 +7,7 @@ use crate::analysis::equilibrium::{CageTreatment, Equilibrium, equilibrium};
 use crate::assembly::PhysicsError;
 use crate::model::study::BearingStudy;
 use crate::results::BearingPoint;
+use crate::transient::peak_loads::PeakLoad;
 use crate::warning::{Code, Warning};
 use rotordyn_bearing::limits::{BearingLoad, ExceededLimit};
 use rotordyn_bearing::{BallLoad, LimitCheck};
@@ -42,6 +43,39 @@ impl Machine {
         }
         unloaded.extend(found.into_iter().map(|(name, speed, limit)| message(name, speed, &limit)));
         Ok(unloaded)
+    }
+
+    /// Static load ratings that the largest loads of a run exceed, by the balls' loads at the displacements there.
+    ///
+    /// A displacement for which no ball loads are found has no warning.
+    pub(crate) fn peak_load_warnings(&self, peaks: &[PeakLoad]) -> Vec<Warning> {
+        let speeds: Vec<f64> = peaks.iter().map(|peak| peak.speed.abs()).collect();
+        if let Ok(Some(machine)) = self.decided(&speeds) {
+            return machine.peak_load_warnings(peaks);
+        }
+        let mut found = Vec::new();
+        for peak in peaks {
+            let site = self.model.bearings.iter().find(|site| site.name == peak.bearing);
+            let Some(ball) = site.and_then(|site| site.bearing.ball()) else { continue };
+            let study = BearingStudy { speed: Some(peak.speed), ..BearingStudy::default() };
+            let single = SingleBearingStudy::new(&peak.bearing, ball, &study);
+            let condition = Condition {
+                load: [0.0; 5],
+                prescribed: peak.displacement.map(Some),
+                speed: peak.speed,
+                cage: CageTreatment::FixedAngle,
+                cage_angle: peak.cage_angle,
+            };
+            let Ok(state) = single.solver.solve(&condition, None) else { continue };
+            let limits = single.exceeded_limits(&single.point(state));
+            let overload = limits.iter().find(|limit| matches!(limit, ExceededLimit::StaticLoad { .. }));
+            found.extend(overload.map(|limit| {
+                let (name, rpm) = (&peak.bearing, peak.speed * TO_RPM);
+                let text = format!("bearing {name} at t = {:.4} s, {rpm:.0} rpm: {limit}", peak.time);
+                Warning::new(code(limit), format!("bearing.{name}"), text)
+            }));
+        }
+        found
     }
 
     fn exceeded_limits(&self, state: &Equilibrium) -> Result<Vec<(&str, ExceededLimit)>, PhysicsError> {

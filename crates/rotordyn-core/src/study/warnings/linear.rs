@@ -1,8 +1,9 @@
 //! Linear responses used beyond their sense.
 
 use crate::analysis::equilibrium::BearingState;
+use crate::analysis::peaks::{Peak, peaks};
 use crate::document::{TO_RPM, number};
-use crate::results::UnbalanceResult;
+use crate::results::{FrfResult, UnbalanceResult};
 use crate::study::{Machine, Results};
 use crate::warning::{Code, Warning};
 use rotordyn_linalg::Complex64;
@@ -16,6 +17,59 @@ struct Opening {
     force: f64,
     /// The larger of amplitude over compression, and amplitude of the force over the static one.
     excess: f64,
+}
+
+/// Amplification factor above which hardly anything damps a peak: a damping ratio of 1e-5, a tenth of that of bare metal.
+const SHARP: f64 = 5e4;
+/// Peaks within this share of their frequency are one.
+const SAME_PEAK: f64 = 1e-3;
+
+/// The sharpest of the peaks (response, peak) at every frequency, of those above [`SHARP`].
+fn sharp_peaks(peaks: impl Iterator<Item = (String, Peak)>) -> Vec<(String, Peak, f64)> {
+    let sharp = peaks.filter_map(|(name, peak)| {
+        let factor = peak.amplification().filter(|factor| *factor > SHARP && factor.is_finite())?;
+        Some((name, peak, factor))
+    });
+    let mut found: Vec<(String, Peak, f64)> = Vec::new();
+    for one in sharp {
+        match found.iter_mut().find(|other| (other.1.at - one.1.at).abs() < SAME_PEAK * one.1.at) {
+            Some(other) if other.2 < one.2 => *other = one,
+            Some(_) => {}
+            None => found.push(one),
+        }
+    }
+    found
+}
+
+fn hardly_damped(study: &str, at: &str, response: &str, factor: f64) -> Warning {
+    let text = format!(
+        "{study}: the peak of {response} at {at} has an amplification factor of {factor:.1e} (damping ratio {:.1e}): hardly \
+         anything damps this mode, and the height of the peak says nothing of a real machine",
+        0.5 / factor
+    );
+    Warning::new(Code::UndampedPeak, format!("study.{study}"), text)
+}
+
+fn sharp_peaks_of_unbalance(result: &UnbalanceResult) -> Vec<Warning> {
+    let all = result.peaks.iter().map(|found| (found.response.clone(), found.peak));
+    let warning = |(response, peak, factor): (String, Peak, f64)| {
+        hardly_damped("unbalance", &format!("{:.2} rpm", peak.at * TO_RPM), &response, factor)
+    };
+    sharp_peaks(all).into_iter().map(warning).collect()
+}
+
+fn sharp_peaks_of_frf(result: &FrfResult) -> Vec<Warning> {
+    let frequencies = &result.frf.frequencies;
+    let all = result.responses.iter().zip(&result.frf.values).flat_map(|(response, row)| {
+        result.excitations.iter().zip(row).flat_map(move |(excitation, values)| {
+            let sizes: Vec<f64> = values.iter().map(|value| value.norm()).collect();
+            peaks(frequencies, &sizes).into_iter().map(move |peak| (format!("{response}/{excitation}"), peak))
+        })
+    });
+    let warning = |(response, peak, factor): (String, Peak, f64)| {
+        hardly_damped("frf", &format!("{:.4} Hz", peak.at), &response, factor)
+    };
+    sharp_peaks(all).into_iter().map(warning).collect()
 }
 
 impl Machine {
@@ -33,6 +87,8 @@ impl Machine {
                 format!("unbalance: {label} at {rpm:.2} rpm is undamped: the response is infinite there");
             found.push(undamped("study.unbalance", text));
         }
+        found.extend(results.frf.iter().flat_map(sharp_peaks_of_frf));
+        found.extend(results.unbalance.iter().flat_map(sharp_peaks_of_unbalance));
         found.extend(results.unbalance.iter().flat_map(|response| self.opened_contacts(response)));
         found
     }

@@ -37,6 +37,12 @@ impl Machine {
         }));
         found.extend(self.linear_warnings(results));
         found.extend(results.run_up.iter().flat_map(|run| self.run_up_warnings(run)));
+        for warning in results.run_up.iter().flat_map(|run| self.peak_load_warnings(&run.peak_loads)) {
+            // That of the static load is enough.
+            if !found.iter().any(|known| known.code == warning.code && known.item == warning.item) {
+                found.push(warning);
+            }
+        }
         found.extend(run::sample_rate(&self.model, results));
         found.extend(spectrogram::smeared_orders(&self.model, results));
         found.extend(order_tracks::orders_in_one_band(results));
