@@ -335,7 +335,8 @@ def identify(
 
     ``measured``: a file or several (UFF, MATLAB, NumPy, CSV, HDF5, results.h5), an :class:`Frf` or a :class:`Measurement`.
     ``band`` such as "10 .. 200 Hz"; ``quantity`` of FRFs without a unit: receptance, mobility, accelerance;
-    ``exponential_window``: its time constant, whose damping is subtracted; ``mapping``: a file that names stations and
+    ``exponential_window``: its time constant, whose damping is subtracted; it is applied to time records, unless
+    ``already_windowed=True``, and not to FRFs; ``mapping``: a file that names stations and
     directions of channels, ``model``: the machine of these stations. ``settings`` are other flags of the command
     ``rotordyn identify``, such as ``force="hammer"``, ``speed="1200 rpm"`` or ``channels=["A_x", "A_y"]``.
     """

@@ -6,7 +6,9 @@ use std::time::Instant;
 
 use rotordyn::error::Error;
 use rotordyn::identify::operational::OperationalSettings;
-use rotordyn::identify::{ModalIdentification, ResidualTerms, Settings, identify, quantity_of};
+use rotordyn::identify::{
+    ModalIdentification, ResidualTerms, Settings, identify, is_force_over_motion, quantity_of,
+};
 use rotordyn::io::hdf5::open_reader;
 use rotordyn::io::measured::impact_run;
 use rotordyn::io::measured::mapping::{self, Mapping};
@@ -67,7 +69,11 @@ pub fn compute(
     let test = ImpactTest {
         force: args.force.clone(),
         block: parse_positive("--block", args.block.as_ref(), units::TIME)?,
-        time_constant: parse_positive("--exponential-window", args.exponential_window.as_ref(), units::TIME)?,
+        // Records that are windowed already are taken as they are; the damping is taken off in any case.
+        time_constant: match args.already_windowed {
+            true => None,
+            false => parse_positive("--exponential-window", args.exponential_window.as_ref(), units::TIME)?,
+        },
         estimator: match args.estimator {
             EstimatorName::H1 => Estimator::H1,
             EstimatorName::H2 => Estimator::H2,
@@ -128,7 +134,8 @@ fn identify_modes(
     for mode in found.modes.iter().filter(|m| m.damping_ratio() <= 0.0) {
         warnings.push(format!(
             "without the damping of the exponential window the mode at {:.3} Hz has a damping ratio of {:.3} %: \
-             --exponential-window is not the time constant of the window used, or it is too short for such light damping",
+             --exponential-window is not the time constant of the window used, or it is too short for such light damping; FRFs \
+             and records with --already-windowed must have been measured with this window",
             mode.frequency_hz(),
             100.0 * mode.damping_ratio()
         ));
@@ -295,7 +302,7 @@ fn read_measured(
         }
         let has_frf = file.records.iter().any(|r| r.kind == Kind::Frf);
         let has_time = file.records.iter().any(|r| r.kind == Kind::Time);
-        let of_hits = test.force.is_some() || test.block.is_some() || test.time_constant.is_some();
+        let of_hits = test.force.is_some() || test.block.is_some() || args.exponential_window.is_some();
         let responses = !args.channels.is_empty() || operational::is_without_force(&file);
         if orders.is_some() || (!has_frf && args.files.len() == 1 && !of_hits && responses) {
             return Ok(Measured::Responses { path: path.clone(), file, orders: orders.unwrap_or_default() });
@@ -408,7 +415,8 @@ fn quality_warnings(frfs: &FrfMatrix, args: &IdentifyArgs, from_hits: bool, warn
         );
     }
     let names = frfs.responses.iter().zip(&frfs.units).flat_map(|(response, row)| {
-        let unknown = frfs.references.iter().zip(row).filter(|(_, unit)| quantity_of(unit).is_none());
+        let is_unknown = |unit: &str| quantity_of(unit).is_none() && !is_force_over_motion(unit);
+        let unknown = frfs.references.iter().zip(row).filter(move |(_, unit)| is_unknown(unit));
         unknown.map(move |(reference, _)| format!("{response}/{reference}"))
     });
     let mut unknown: Vec<String> = names.collect();

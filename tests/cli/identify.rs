@@ -251,6 +251,30 @@ fn bad_frfs_are_reported() {
     insta::assert_snapshot!("bad_frfs", outputs_of_cases(folder, &cases));
 }
 
+/// Peaks of force over motion are antiresonances.
+#[test]
+fn dynamic_stiffness_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/models/overhung_rig.toml");
+    for unit in ["N/m", "N/(m/s^2)"] {
+        let of_unit = changed(frfs(&[0]), |all| all.iter_mut().for_each(|frf| frf.unit = unit.into()));
+        write(folder, "stiffness.uff", of_unit);
+        let commands: [&[&str]; 3] = [
+            &["identify", "stiffness.uff"],
+            &["validate", model, "--measured", "stiffness.uff"],
+            &["update", model, "--measured", "stiffness.uff", "--free", "housing.*.k_x"],
+        ];
+        for command in commands {
+            let output = rotordyn().current_dir(folder).args(command).output().unwrap();
+            let text = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert!(!output.status.success(), "{command:?}");
+            assert!(text.contains("force over motion") && text.contains("reciprocal"), "{command:?}: {text}");
+            assert!(!text.contains("have no unit"), "{text}");
+        }
+    }
+}
+
 /// Results are the same to the byte whatever the number of threads.
 #[test]
 fn results_do_not_depend_on_threads() {

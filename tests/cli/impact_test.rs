@@ -184,6 +184,40 @@ fn impact_test_of_eight_hits() {
     }
 }
 
+/// Records through an exponential window of the analyser: its damping is taken off once, and it is not applied again.
+#[test]
+fn records_that_are_windowed_already() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let tau = 0.4;
+    let pulses: Vec<Pulse> = (0..6u8).map(|k| Pulse { at: 0.5 + 4.0 * f64::from(k), peak: 80.0 }).collect();
+    let (force, responses) = impact_record(24.5, 2, &pulses);
+    let mut records = channels(force, &responses);
+    for record in &mut records {
+        let Values::Real(values) = &mut record.values else { continue };
+        for (n, value) in values.iter_mut().enumerate() {
+            let since = n as f64 / RATE - pulses[0].at;
+            if since >= 0.0 {
+                *value *= (-(since % 4.0) / tau).exp();
+            }
+        }
+    }
+    write(folder, "test.npz", records);
+    let flags = ["--block", "3 s", "--exponential-window", "0.4 s", "--band", "10 .. 110 Hz"];
+    let found = modes(&identified(folder, &["test.npz"], &[&flags[..], &["--already-windowed"]].concat()));
+    assert_eq!(found.len(), 3, "{found:?}");
+    let twice = modes(&identified(folder, &["test.npz"], &flags));
+    for (k, mode) in MODES.iter().enumerate() {
+        let (hz, zeta) = found[k];
+        assert!((hz / damped(*mode) - 1.0).abs() < 1e-3, "{mode:?} {hz}");
+        // Asked for: 3 %.
+        assert!((zeta / mode.1 - 1.0).abs() < 0.03, "{mode:?} {zeta}");
+        // Applied again, the window's damping is left in.
+        let share = 1.0 / (tau * TAU * mode.0);
+        assert!(((twice[k].1 - mode.1) / share - 1.0).abs() < 0.1, "{mode:?} {twice:?}");
+    }
+}
+
 /// H1 bears noise of the responses, H2 noise of the force; Hv lies between.
 #[test]
 fn estimators() {

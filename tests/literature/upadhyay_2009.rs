@@ -53,7 +53,7 @@ fn motion(
     for k in 1..=skip + count {
         stepper.advance(system, &mut state, step, k as f64 * step, &mut |_, _| Ok(())).unwrap();
         if k > skip && (k - skip).is_multiple_of(thin) {
-            check_divergence(system, &state).unwrap();
+            check_divergence(system, &state, &stepper).unwrap();
             out.iter_mut()
                 .zip(system.channels.list())
                 .for_each(|(out, channel)| out.push(channel.read(state.motion())));

@@ -81,10 +81,15 @@ pub struct IdentifyArgs {
     /// modes below, and of a free machine's rigid-body motion) or none
     #[arg(long, value_name = "NAME", default_value = "both")]
     pub residual_terms: ResidualTermsName,
-    /// Time constant of the exponential window of the test, such as "0.5 s": applied to time records; its
-    /// added damping is subtracted from every mode
+    /// Time constant of an exponential window e^(-t/TIME), such as "0.5 s", whose added damping is subtracted from every mode.
+    /// Time records: rotordyn applies the window to force and responses of every block, so the records must be without one,
+    /// unless --already-windowed is given. FRFs: the window with which they were measured
     #[arg(long, alias = "window", value_name = "TIME")]
     pub exponential_window: Option<String>,
+    /// The time records have been recorded with the exponential window on force and responses from each hit on: it is not applied
+    /// again, and its damping is subtracted
+    #[arg(long, requires = "exponential_window")]
+    pub already_windowed: bool,
     /// Channel of the force in time records [default: the one in N]
     #[arg(long, value_name = "NAME")]
     pub force: Option<String>,

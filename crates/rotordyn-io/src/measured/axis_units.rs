@@ -37,9 +37,15 @@ const TIMES: [(&str, f64, f64); 18] = [
     ("minutes", 60.0, 1.0), ("hr", 3600.0, 1.0), ("hours", 3600.0, 1.0), ("days", 86_400.0, 1.0), ("d", 86_400.0, 1.0),
 ];
 
+/// Longest label \[bytes\].
+const MAX_LABEL: usize = 100;
+
 /// The unit of a label of an axis or a sampling rate; `None` if it is not known.
 pub(crate) fn si(label: &str) -> Option<SiUnit> {
-    let label = label.trim();
+    let label = label.trim().trim_end_matches('.');
+    if label.len() > MAX_LABEL {
+        return None;
+    }
     let label = label.strip_prefix(['[', '(']).and_then(|l| l.strip_suffix([']', ')'])).unwrap_or(label);
     // "days since 2026-11-23" of netCDF.
     let label = label.split_once(" since ").map_or(label, |(unit, _)| unit).trim();

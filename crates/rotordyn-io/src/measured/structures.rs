@@ -8,6 +8,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::array::{Array, Data};
 use super::axis_names::{Meaning, Role, StatedRate, check_same, meaning, six_digits};
+use super::axis_units;
 use super::content_problem::ContentProblem;
 use crate::budget::MAX_DEPTH;
 use rotordyn_signal::record::{Axis, AxisQuantity, Points};
@@ -35,6 +36,8 @@ pub(super) struct Structures<'a> {
     units: HashMap<&'a str, usize>,
     /// Number of numeric arrays of a structure that are records.
     records: HashMap<&'a str, usize>,
+    /// Places of arrays that are no axis by their units.
+    of_other_units: HashSet<usize>,
     /// Place of the unit of an array that states an axis.
     axis_units: HashMap<usize, usize>,
     /// Places of the arrays that have been taken as axis, unit or title.
@@ -79,6 +82,7 @@ impl<'a> Structures<'a> {
             stated: HashMap::new(),
             units: HashMap::new(),
             records: HashMap::new(),
+            of_other_units: HashSet::new(),
             axis_units: HashMap::new(),
             used: RefCell::default(),
             given_rate,
@@ -128,10 +132,17 @@ impl<'a> Structures<'a> {
                         Ok(None) => {
                             self.axis_units.insert(place, at);
                         }
-                        // Names that may state something else, and what the rate that is given replaces.
-                        Err(_) if meaning.uncertain || is_start(meaning.role) => continue,
-                        Err(_) if self.given_rate.is_some() && meaning.role != Role::Frequencies => continue,
-                        Err(problem) => return Err(problem),
+                        // Names that may state something else, and what the given rate replaces, are no axis.
+                        Err(problem) => {
+                            // `f` in N is a force.
+                            let is_other = last_name(name).len() == 1 && axis_units::si(label).is_some();
+                            let replaced = self.given_rate.is_some() && meaning.role != Role::Frequencies;
+                            if !(meaning.uncertain || is_start(meaning.role) || is_other || replaced) {
+                                return Err(problem);
+                            }
+                            self.of_other_units.insert(place);
+                            continue;
+                        }
                     }
                 }
                 kept.push((meaning, place));
@@ -169,7 +180,9 @@ impl<'a> Structures<'a> {
     /// Whether an array is a list of times or frequencies.
     pub fn is_axis_list(&self, place: usize) -> bool {
         let array = &self.arrays[place];
-        array.data.len() > 1 && meaning_of(array, last_name(&array.name)).is_some()
+        array.data.len() > 1
+            && meaning_of(array, last_name(&array.name)).is_some()
+            && !self.of_other_units.contains(&place)
     }
 
     /// What holds for the records of an array.

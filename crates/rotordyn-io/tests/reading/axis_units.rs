@@ -81,6 +81,9 @@ fn attributes_of_axes_in_hdf5() {
         let error = read_hdf5((axis, &frequencies(1.0)), ("unit", unit), axis == "frequency").unwrap_err();
         assert!(error.contains(&format!("the unit `{unit}` of `{axis}`")), "{error}");
     }
+    // `f` in N is a force, which may increase.
+    let found = read_hdf5(("f", &frequencies(1.0)), ("unit", "N"), false).unwrap();
+    assert_eq!(found.record("f").unwrap().unit, "N");
     // No unit at all.
     check_frequencies(&read_hdf5(("frequency", &frequencies(1.0)), ("unit", ""), true).unwrap(), "none");
 }
