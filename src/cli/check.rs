@@ -85,6 +85,7 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
 fn check(origin: &ModelSource, variant: &str) -> Result<CheckedVariant, Failure> {
     let origin = origin.with_variant(variant);
     let loaded = origin.load(&[])?;
+    loaded.refuse_conflicts()?;
     let side_files = origin.side_file_sizes()?;
     let machine = Machine::new(loaded.model.clone())?;
     let free = rigid_body_modes::rigid_body_modes_of_machine(&machine.model, &machine.assembly)?;

@@ -60,7 +60,7 @@ impl ModelSource {
         let files = self.side_files(&options);
         let mut loaded = model::load_with(&self.name, &self.text, &options, &files)
             .map_err(|errors| self.located(errors, settings))?;
-        let found = loaded.warnings.iter_mut().chain(&mut loaded.hints);
+        let found = loaded.warnings.iter_mut().chain(&mut loaded.hints).chain(&mut loaded.conflicts);
         setting_sources::as_written(&mut loaded.sources, found, self.options.set.len(), &settings.flags);
         let balls =
             loaded.model.bearings.iter().filter_map(|site| Some((site.name.as_str(), site.bearing.ball()?)));

@@ -234,6 +234,9 @@ fn studies_of(
         let message = format!("{} contains no study; add [study.modal] or another", origin.name);
         return Err(Failure::Input(message));
     }
+    if wanted.iter().any(|study| matches!(study, Study::Spectrogram | Study::Orders)) {
+        loaded.refuse_conflicts()?;
+    }
     defaults::print_decisive(terminal, &loaded.defaults, &loaded.model, &wanted);
     let folder = origin.results_folder(args.out.as_ref(), &loaded.model.name);
     let _lock = FolderLock::take(&folder, terminal)?;

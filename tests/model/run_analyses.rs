@@ -1,6 +1,6 @@
 //! Spectrograms and orders of a run-up against what the speed profile gives; empty tables of studies; names of probes.
 
-use rotordyn::model::{self, Kind, Model, Options};
+use rotordyn::model::{self, Kind, Model, ModelErrors, Options};
 use std::f64::consts::TAU;
 
 const MACHINE: &str = r#"
@@ -17,9 +17,13 @@ const MACHINE: &str = r#"
 fn loaded(speed: &str, more: &str) -> Result<Model, Vec<(Kind, String)>> {
     let speed = format!("speed = {{ profile = \"ramp\", {speed} }}\n");
     match model::load("m.toml", format!("{MACHINE}{speed}{more}"), &Options::default()) {
-        Ok(loaded) => Ok(loaded.model),
-        Err(errors) => Err(errors.diagnostics.iter().map(|d| (d.kind, d.message.clone())).collect()),
+        Ok(loaded) => loaded.refuse_conflicts().map(|()| loaded.model).map_err(listed),
+        Err(errors) => Err(listed(errors)),
     }
+}
+
+fn listed(errors: ModelErrors) -> Vec<(Kind, String)> {
+    errors.diagnostics.iter().map(|d| (d.kind, d.message.clone())).collect()
 }
 
 /// 3000 rpm in 2 s.

@@ -31,6 +31,8 @@ pub struct Loaded {
     pub warnings: Vec<Diagnostic>,
     /// Former spellings of renamed keys and keywords; the file is valid and means the same.
     pub hints: Vec<Diagnostic>,
+    /// What spectrograms and orders of the run-up ask of it that it does not give: they fail, the other studies do not.
+    pub conflicts: Vec<Diagnostic>,
     /// Values that the file gives, after variant and overrides.
     pub given: Vec<GivenValue>,
     /// Values that the file does not give.
@@ -42,6 +44,17 @@ pub struct Loaded {
 }
 
 impl Loaded {
+    /// For who is about to make spectrograms and orders of the run-up.
+    ///
+    /// # Errors
+    /// The conflicts, if there are any.
+    pub fn refuse_conflicts(&self) -> Result<(), ModelErrors> {
+        if self.conflicts.is_empty() {
+            return Ok(());
+        }
+        Err(ModelErrors { sources: self.sources.clone(), diagnostics: self.conflicts.clone() })
+    }
+
     /// Span of an item's definition, such as `["bearing", "B"]`: in the model itself, else in a variant; 0..0
     /// if the file does not contain it (set by `--set`).
     pub fn item_span(&self, path: &[&str]) -> Range<usize> {
@@ -122,8 +135,8 @@ pub fn load_with(
         build::check_unused(&root, &text, &log);
     }
     let defaults = log.defaults();
-    let (sources, [warnings, hints]) = sources_and_warnings(sources, log)?;
-    Ok(Loaded { model, warnings, hints, given: given_values(&root), defaults, sources, text })
+    let (sources, [warnings, hints, conflicts]) = sources_and_notes(sources, log)?;
+    Ok(Loaded { model, warnings, hints, conflicts, given: given_values(&root), defaults, sources, text })
 }
 
 /// The ball bearings of a machine file or of a bearing-only file.
@@ -214,7 +227,7 @@ pub fn load_bearings_with(
             None => problem.hint("add [bearing.NAME] with model = \"ball\" and designation or geometry"),
         });
     }
-    let (sources, [warnings, hints]) = sources_and_warnings(sources, log)?;
+    let (sources, [warnings, hints, _]) = sources_and_notes(sources, log)?;
     Ok(LoadedBearings { name, title, bearings, free_balls, studies, model, warnings, hints, sources, text })
 }
 
@@ -281,15 +294,11 @@ impl Document {
 }
 
 /// Sources, warnings and hints of a file without errors, otherwise its errors.
-fn sources_and_warnings(
-    sources: Sources,
-    log: Log,
-) -> Result<(Vec<Source>, [Vec<Diagnostic>; 2]), ModelErrors> {
+fn sources_and_notes(sources: Sources, log: Log) -> Result<(Vec<Source>, [Vec<Diagnostic>; 3]), ModelErrors> {
     if log.error_count() > 0 {
         return Err(model_errors(sources, log));
     }
-    let (warnings, hints) = log.into_warnings_and_hints();
-    let located = [sources.locate(warnings), sources.locate(hints)];
+    let located = log.into_notes().map(|found| sources.locate(found));
     Ok((sources.into_vec(), located))
 }
 

@@ -118,11 +118,11 @@ fn length(r: &Reader, duration: f64, sample_rate: f64) -> f64 {
     if !fits(length) {
         let message = format!("{} of {length} s is longer than the run of {duration} s", r.name(key));
         let problem = Problem::new(Kind::Conflict, &r.span_of(key), message);
-        r.log.error(problem.hint("shorten it, or lengthen the run in [speed]"));
+        r.log.conflict(problem.hint("shorten it, or lengthen the run in [speed]"));
     } else if (length * sample_rate).round() < 2.0 {
         let message = format!("{} of {length} s is shorter than two samples", r.name(key));
         let problem = Problem::new(Kind::Conflict, &r.span_of(key), message);
-        r.log.error(problem.hint("lengthen it, or raise study.run_up.sample_rate"));
+        r.log.conflict(problem.hint("lengthen it, or raise study.run_up.sample_rate"));
     }
     length
 }
@@ -154,7 +154,7 @@ pub(super) fn orders_of_run(r: &Reader, model: &Model) -> (OrderStudy, bool) {
     (study, r.has_no_errors())
 }
 
-/// The study with defaults that fit the run; errors where given values do not, if its own keys were read without any.
+/// The study with defaults that fit the run; conflicts where given values do not, if its own keys were read without errors.
 pub(super) fn fitted_orders(
     r: &Reader,
     (mut study, is_sound): (OrderStudy, bool),
@@ -200,7 +200,7 @@ fn fit_highest_order(r: &Reader, study: &mut OrderStudy, sample_rate: f64, speed
     );
     let problem = Problem::new(Kind::Conflict, &r.span_of(at), message);
     let lower = rounded_down(highest);
-    r.log.error(problem.hint(format!("raise the sampling rate, or stay below order {lower}")));
+    r.log.conflict(problem.hint(format!("raise the sampling rate, or stay below order {lower}")));
 }
 
 /// Coarsens the resolution by default to what the longest turning of the shaft \[revolutions\] takes.
@@ -220,7 +220,7 @@ fn fit_resolution(r: &Reader, study: &mut OrderStudy, turns: f64) {
         study.resolution
     );
     let problem = Problem::new(Kind::Conflict, &r.span_of(key), message);
-    r.log.error(problem.hint("raise it, or lengthen the run in [speed]"));
+    r.log.conflict(problem.hint("raise it, or lengthen the run in [speed]"));
 }
 
 fn check_ranges(r: &Reader, study: &OrderStudy) {

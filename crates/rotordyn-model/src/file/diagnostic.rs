@@ -224,6 +224,7 @@ pub(crate) struct Log {
     retracted: RefCell<HashSet<usize>>,
     warnings: RefCell<Vec<Problem>>,
     hints: RefCell<Vec<Problem>>,
+    conflicts: RefCell<Vec<Problem>>,
     defaults: RefCell<Vec<DefaultValue>>,
     /// What was reported already, of what is reported once.
     seen: RefCell<HashSet<Reported>>,
@@ -269,6 +270,11 @@ impl Log {
     /// Add a warning about an item of the file, such as `bearing.B`.
     pub fn warn(&self, code: Code, item: impl Into<String>, problem: Problem) {
         self.warnings.borrow_mut().push(Problem { warning: Some(Box::new((code, item.into()))), ..problem });
+    }
+
+    /// Add a conflict of a study with the run: of no concern to the other studies.
+    pub fn conflict(&self, problem: Problem) {
+        self.conflicts.borrow_mut().push(problem);
     }
 
     /// Add a hint, once per message.
@@ -330,8 +336,8 @@ impl Log {
         errors.filter(|(place, _)| !retracted.contains(place)).map(|(_, problem)| problem).collect()
     }
 
-    /// Warnings and hints.
-    pub fn into_warnings_and_hints(self) -> (Vec<Problem>, Vec<Problem>) {
-        (self.warnings.into_inner(), self.hints.into_inner())
+    /// Warnings, hints and conflicts.
+    pub fn into_notes(self) -> [Vec<Problem>; 3] {
+        [self.warnings, self.hints, self.conflicts].map(RefCell::into_inner)
     }
 }

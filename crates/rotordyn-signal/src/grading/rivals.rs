@@ -149,7 +149,7 @@ pub(super) fn fraction_of_shaft(base: f64, spectrum: &LineSpectrum, shaft: f64) 
         let rate = shaft / turns as f64;
         let near = |place: f64| tolerance(RivalKind::Periodic, place, spectrum.step);
         let number = (base / rate).round() as usize;
-        if number % turns == 0 || (base - number as f64 * rate).abs() > near(base) {
+        if number.is_multiple_of(turns) || (base - number as f64 * rate).abs() > near(base) {
             return None;
         }
         let level = |n: usize| {
@@ -157,7 +157,7 @@ pub(super) fn fraction_of_shaft(base: f64, spectrum: &LineSpectrum, shaft: f64) 
             spectrum.highest(place, near(place)).map_or(0.0, |(_, amplitude)| amplitude)
         };
         let own = level(number);
-        let below = (1..number).filter(|n| n % turns != 0);
+        let below = (1..number).filter(|n| !n.is_multiple_of(turns));
         if below.clone().any(|n| level(n) < NEIGHBOUR * own) || level(1) < LOWEST * own {
             return None;
         }

@@ -1,9 +1,9 @@
 //! Linear responses used beyond their sense.
 
 use crate::analysis::equilibrium::BearingState;
-use crate::analysis::peaks::{Peak, peaks};
+use crate::analysis::peaks::Peak;
 use crate::document::{TO_RPM, number};
-use crate::results::{FrfResult, UnbalanceResult};
+use crate::results::UnbalanceResult;
 use crate::study::{Machine, Results};
 use crate::warning::{Code, Warning};
 use rotordyn_linalg::Complex64;
@@ -41,33 +41,16 @@ fn sharp_peaks(peaks: impl Iterator<Item = (String, Peak)>) -> Vec<(String, Peak
     found
 }
 
-fn hardly_damped(study: &str, at: &str, response: &str, factor: f64) -> Warning {
-    let text = format!(
-        "{study}: the peak of {response} at {at} has an amplification factor of {factor:.1e} (damping ratio {:.1e}): hardly \
-         anything damps this mode, and the height of the peak says nothing of a real machine",
-        0.5 / factor
-    );
-    Warning::new(Code::UndampedPeak, format!("study.{study}"), text)
-}
-
 fn sharp_peaks_of_unbalance(result: &UnbalanceResult) -> Vec<Warning> {
     let all = result.peaks.iter().map(|found| (found.response.clone(), found.peak));
     let warning = |(response, peak, factor): (String, Peak, f64)| {
-        hardly_damped("unbalance", &format!("{:.2} rpm", peak.at * TO_RPM), &response, factor)
-    };
-    sharp_peaks(all).into_iter().map(warning).collect()
-}
-
-fn sharp_peaks_of_frf(result: &FrfResult) -> Vec<Warning> {
-    let frequencies = &result.frf.frequencies;
-    let all = result.responses.iter().zip(&result.frf.values).flat_map(|(response, row)| {
-        result.excitations.iter().zip(row).flat_map(move |(excitation, values)| {
-            let sizes: Vec<f64> = values.iter().map(|value| value.norm()).collect();
-            peaks(frequencies, &sizes).into_iter().map(move |peak| (format!("{response}/{excitation}"), peak))
-        })
-    });
-    let warning = |(response, peak, factor): (String, Peak, f64)| {
-        hardly_damped("frf", &format!("{:.4} Hz", peak.at), &response, factor)
+        let text = format!(
+            "unbalance: the peak of {response} at {:.2} rpm has an amplification factor of {factor:.1e} (damping ratio {:.1e}): \
+             hardly anything damps this mode, and the height of the peak says nothing of a real machine",
+            peak.at * TO_RPM,
+            0.5 / factor
+        );
+        Warning::new(Code::UndampedPeak, "study.unbalance", text)
     };
     sharp_peaks(all).into_iter().map(warning).collect()
 }
@@ -87,7 +70,6 @@ impl Machine {
                 format!("unbalance: {label} at {rpm:.2} rpm is undamped: the response is infinite there");
             found.push(undamped("study.unbalance", text));
         }
-        found.extend(results.frf.iter().flat_map(sharp_peaks_of_frf));
         found.extend(results.unbalance.iter().flat_map(sharp_peaks_of_unbalance));
         found.extend(results.unbalance.iter().flat_map(|response| self.opened_contacts(response)));
         found
