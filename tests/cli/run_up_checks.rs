@@ -63,6 +63,14 @@ fn document(text: &str, arguments: &[&str], exit: i32) -> Value {
     serde_json::from_slice(&command.assert().code(exit).get_output().stdout).unwrap()
 }
 
+/// What `run-up` prints for a model.
+fn run_up_of(text: &str, exit: i32) -> std::process::Output {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("model.toml"), text).unwrap();
+    let arguments = ["run-up", "model.toml", "--no-figures", "--out", "out"];
+    rotordyn().current_dir(folder.path()).args(arguments).assert().code(exit).get_output().clone()
+}
+
 fn warnings<'a>(document: &'a Value, code: &str) -> Vec<&'a Value> {
     document["warnings"].as_array().unwrap().iter().filter(|w| w["code"] == code).collect()
 }
@@ -133,14 +141,7 @@ fn units_cages_and_length_of_a_short_run() {
     assert_eq!(unit("tilt"), Some("rad/s^2"));
     assert_eq!((unit("A_cage_angle"), unit("B_cage_angle")), (None, Some("rad")));
 
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("model.toml"), text).unwrap();
-    let run = rotordyn()
-        .current_dir(folder.path())
-        .args(["run-up", "model.toml", "--no-figures", "--out", "out"])
-        .assert()
-        .code(0);
-    let shown = String::from_utf8_lossy(&run.get_output().stdout).into_owned();
+    let shown = String::from_utf8_lossy(&run_up_of(&text, 0).stdout).into_owned();
     assert!(shown.contains("no estimate of the step's error: it needs a run of 0.480 s"), "{shown}");
 }
 
@@ -153,14 +154,7 @@ fn divergence_of_an_explicit_integrator_is_its_step() {
         &format!("{UNBALANCE}{}{study}", speed("\"ramp\"\nto = \"600 rpm\"\nramp = \"1 s\"", "")),
     )
     .replace("2e6 N/m", "2e9 N/m");
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("model.toml"), text).unwrap();
-    let run = rotordyn()
-        .current_dir(folder.path())
-        .args(["run-up", "model.toml", "--no-figures", "--out", "out"])
-        .assert()
-        .code(3);
-    let shown = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
+    let shown = String::from_utf8_lossy(&run_up_of(&text, 3).stderr).into_owned();
     for part in ["diverged", "explicit integrator rk4", "lower step", "leave out integrator"] {
         assert!(shown.replace("\n", " ").contains(part), "{part}: {shown}");
     }

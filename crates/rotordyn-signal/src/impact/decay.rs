@@ -4,6 +4,7 @@
 //! FRF the end of the block still spoils. Amplitudes at each frequency in the first and in the last quarter after the hit give
 //! its decay, and this what is left at the end.
 
+use super::records::median;
 use crate::segment::SegmentTransform;
 use crate::window::WindowKind;
 
@@ -29,7 +30,7 @@ pub(super) fn left_at_end(response: &[f64]) -> f64 {
     // The first bins hold what is left of the mean.
     const LOWEST: usize = 2;
     let strongest = first.iter().skip(LOWEST).copied().fold(0.0, f64::max);
-    let noise = median(&last);
+    let noise = median(last.clone());
     let peak = |k: &usize| {
         let around = |powers: &[f64]| powers[*k - 1].max(powers[*k + 1]).max(powers[*k]);
         last[*k] >= around(&last) && last[*k] > STANDS_OUT * noise && around(&first) > MIN_SHARE * strongest
@@ -40,10 +41,4 @@ pub(super) fn left_at_end(response: &[f64]) -> f64 {
         (last[k] / before).sqrt().min(1.0).powf(all as f64 / (all - length) as f64)
     };
     (LOWEST..last.len() - 1).filter(peak).map(left).fold(0.0, f64::max)
-}
-
-fn median(values: &[f64]) -> f64 {
-    let mut values = values.to_vec();
-    let middle = values.len() / 2;
-    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }

@@ -371,7 +371,7 @@ fn digits(value: f64) -> f64 {
 }
 
 /// Median; 0 for an empty list.
-fn median(mut values: Vec<f64>) -> f64 {
+pub(super) fn median(mut values: Vec<f64>) -> f64 {
     let middle = values.len() / 2;
     if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
