@@ -1,6 +1,6 @@
 //! Background of a spectrum: its running median.
 
-use super::jerk::median;
+use super::statistics::median;
 
 /// Running median over ± `half_width` bins, truncated at the ends; the bin at 0 Hz is excluded.
 ///

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record, check_same_length};
+use super::statistics::median;
 
 /// A jump spans one bin on either side of its middle; the bin at distance `FLANK_DISTANCE` is its flank, and the bins
 /// beyond, up to `BASELINE_DISTANCE`, give the baseline level of that side.
@@ -191,15 +192,4 @@ fn gaussian_smoothed(values: &[f64], sigma: f64) -> Vec<f64> {
         (weights[0] * values[n] + weights.iter().enumerate().skip(1).map(both).sum::<f64>()) / sum
     };
     (0..values.len()).map(at).collect()
-}
-
-/// Median of a non-empty list.
-pub fn median(mut values: Vec<f64>) -> f64 {
-    let (count, middle) = (values.len(), values.len() / 2);
-    let (below, upper, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
-    if count % 2 == 1 {
-        return *upper;
-    }
-    let lower = below.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    0.5 * (lower + *upper)
 }

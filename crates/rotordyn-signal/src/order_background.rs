@@ -2,9 +2,9 @@
 
 use std::f64::consts::LN_2;
 
-use super::jerk::median;
 use super::order::OrderSpectrogram;
 use super::segment::Level;
+use super::statistics::median;
 
 /// Bins by which a line may be off its order, beyond half the main lobe of the window.
 const OFF_BINS: f64 = 0.5;

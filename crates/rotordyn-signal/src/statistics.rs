@@ -86,3 +86,18 @@ pub fn statistics(record: &[f64]) -> Result<Statistics, SignalError> {
         kurtosis: varies.then(|| m4 / (m2 * m2)),
     })
 }
+
+/// Median of values: the middle one in order of size, the mean of both middle ones of an even count; 0 of an empty list.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    let (count, middle) = (values.len(), values.len() / 2);
+    if count == 0 {
+        return 0.0;
+    }
+    let (below, upper, _) = values.select_nth_unstable_by(middle, f64::total_cmp);
+    let lower = if count.is_multiple_of(2) {
+        below.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    } else {
+        *upper
+    };
+    0.5 * (lower + *upper)
+}

@@ -7,6 +7,7 @@ use std::collections::VecDeque;
 
 use super::SignalError;
 use super::error::{check, check_length, check_rate, check_record};
+use super::statistics::median;
 use rotordyn_linalg::pchip::Pchip;
 
 use counts::{MOST_PITCHES, best_counts};
@@ -82,11 +83,10 @@ fn crossings(record: &[f64], sample_rate: f64, level: f64, fall: f64) -> Vec<f64
 /// Extremes over four typical intervals. Where they span less than half of the usual there is no pulse, and the middle is
 /// that before (or behind).
 fn without_drift(record: &[f64], sample_rate: f64, edges: &[f64]) -> Option<(Vec<f64>, f64)> {
-    let median = |mut values: Vec<f64>| {
-        values.sort_by(f64::total_cmp);
-        values.get(values.len() / 2).copied()
-    };
-    let interval = median(edges.windows(2).map(|w| w[1] - w[0]).collect())? * sample_rate;
+    if edges.len() < 2 {
+        return None;
+    }
+    let interval = median(edges.windows(2).map(|w| w[1] - w[0]).collect()) * sample_rate;
     let reach = (0.5 * ENVELOPE_INTERVALS * interval).ceil() as usize;
     if 8 * reach > record.len() {
         return None;
@@ -95,7 +95,7 @@ fn without_drift(record: &[f64], sample_rate: f64, edges: &[f64]) -> Option<(Vec
     let negative: Vec<f64> = record.iter().map(|v| -v).collect();
     let low: Vec<f64> = running_maximum(&negative, reach).iter().map(|v| -v).collect();
     let spans: Vec<f64> = high.iter().zip(&low).map(|(h, l)| h - l).collect();
-    let span = median(spans.clone())?;
+    let span = median(spans.clone());
     let has_pulse = |n: usize| spans[n] > 0.5 * span;
     let mut middle: Vec<f64> = high.iter().zip(&low).map(|(h, l)| 0.5 * (h + l)).collect();
     let mut sorted: Vec<f64> = (0..record.len()).filter(|n| has_pulse(*n)).map(|n| middle[n]).collect();

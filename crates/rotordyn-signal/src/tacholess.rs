@@ -9,6 +9,7 @@ use super::error::{check, check_rate, check_record, check_same_length};
 use super::filter::{Band, butterworth};
 use super::ridge::{Peak, interpolate_peak};
 use super::segment::Level;
+use super::statistics::median;
 use super::stft::{Stft, StftSettings, interpolate_at};
 use super::window::WindowKind;
 
@@ -138,7 +139,7 @@ pub fn speed_from_line(
     let most_bins = (most_change * hop as f64 / sample_rate / per_bin).ceil() as usize;
     let path = extract_ridge(&map.frequencies, &map.amplitude, (low, high), most_bins.max(1))?;
     let heights = over_background(&map.frequencies, &map.amplitude, &path, (low, high));
-    let over_background = median(heights.clone()).unwrap_or(f64::INFINITY);
+    let over_background = median(heights.clone());
     let jump = largest_jump(&path, &heights, over_background);
     let places: Vec<f64> = path.iter().map(|p| p.position).collect();
     // Frame k is centred at sample k hop + frame/2.
@@ -177,11 +178,6 @@ pub fn speed_from_line(
     Ok(EstimatedSpeed { rpm: (0..=last).map(speed).collect(), theta, over_background, jump })
 }
 
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
-}
-
 /// For every row a peak's amplitude over the median of the bins outside its main lobe, from half the lower to twice the upper
 /// end of a range.
 fn over_background(axis: &[f64], amplitude: &[f64], path: &[Peak], (low, high): (f64, f64)) -> Vec<f64> {
@@ -191,7 +187,7 @@ fn over_background(axis: &[f64], amplitude: &[f64], path: &[Peak], (low, high): 
     let end = axis.partition_point(|f| *f <= 2.0 * high);
     let ratio = |(row, peak): (&[f64], &Peak)| {
         let apart = (first..end).filter(|k| k.abs_diff(peak.bin) > lobe).map(|k| row[k]).collect();
-        median(apart).map_or(f64::INFINITY, |noise| peak.amplitude / noise.max(f64::MIN_POSITIVE))
+        peak.amplitude / median(apart).max(f64::MIN_POSITIVE)
     };
     amplitude.chunks_exact(axis.len()).zip(path).map(ratio).collect()
 }

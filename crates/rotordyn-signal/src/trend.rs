@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::SignalError;
 use super::error::{check_record, check_same_length};
+use super::statistics::median;
 
 /// Largest number of points without ties whose test is exact; above, S is normal to better than its own rounding.
 const EXACT_POINTS: usize = 50;
@@ -90,9 +91,9 @@ pub fn trend(x: &[f64], y: &[f64]) -> Result<Option<Trend>, SignalError> {
     let fifth = n.div_ceil(5);
     let [early, late] = [points[fifth - 1].0, points[n - fifth].0];
     let end = |within: &dyn Fn(f64) -> bool| {
-        let mut values: Vec<f64> = points.iter().filter(|p| within(p.0)).map(|p| p.1).collect();
-        values.sort_by(f64::total_cmp);
-        (median(&values), values.len())
+        let values: Vec<f64> = points.iter().filter(|p| within(p.0)).map(|p| p.1).collect();
+        let count = values.len();
+        (median(values), count)
     };
     let (first, last) = (end(&|x| x <= early), end(&|x| x >= late));
     Ok(Some(Trend {
@@ -143,10 +144,4 @@ fn exact_probability(n: usize, s: u64) -> f64 {
     let most = (pairs as u64 - s) / 2;
     let tail: f64 = shares[..=most as usize].iter().sum();
     if s == 0 { 1.0 } else { (2.0 * tail).min(1.0) }
-}
-
-/// Of sorted values, at least one.
-fn median(sorted: &[f64]) -> f64 {
-    let middle = sorted.len() / 2;
-    if sorted.len().is_multiple_of(2) { 0.5 * (sorted[middle - 1] + sorted[middle]) } else { sorted[middle] }
 }

@@ -4,8 +4,8 @@
 //! FRF the end of the block still spoils. Amplitudes at each frequency in the first and in the last quarter after the hit give
 //! its decay, and this what is left at the end.
 
-use super::records::median;
 use crate::segment::SegmentTransform;
+use crate::statistics::median;
 use crate::window::WindowKind;
 
 /// Least samples of a quarter.

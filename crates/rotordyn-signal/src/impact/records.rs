@@ -6,6 +6,7 @@ use super::frf::{Estimator, FrfEstimate, ImpactWindows, frf_from_hits};
 use super::quality::{HitQuality, Limits, inspect};
 use super::{Hit, Trigger};
 use crate::record::{Axis, AxisQuantity, Dof, Kind, MeasuredData, Record, RecordError, Values};
+use crate::statistics::median;
 
 /// Settings of an impact test.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -368,12 +369,6 @@ fn digits(value: f64) -> f64 {
     }
     let scale = 10f64.powi(3 - value.abs().log10().floor() as i32);
     (value * scale).round() / scale
-}
-
-/// Median; 0 for an empty list.
-pub(super) fn median(mut values: Vec<f64>) -> f64 {
-    let middle = values.len() / 2;
-    if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
 
 fn records(

@@ -1,5 +1,7 @@
 //! Which pulses of a tacho are kept, and how many pitches of the pulse wheel each interval holds.
 
+use crate::statistics::median;
+
 /// Most pitches that are tried for every interval, and most pulses dropped in a row.
 pub(super) const MOST_PITCHES: usize = 6;
 const MOST_DROPPED: usize = 2;
@@ -37,10 +39,6 @@ fn speed_at(times: &[f64], k: usize, forward: bool) -> Option<[f64; 2]> {
     }
     let speeds: Vec<[f64; 2]> =
         times.windows(2).map(|w| [0.5 * (w[0] + w[1]), 1.0 / (w[1] - w[0])]).collect();
-    let median = |mut values: Vec<f64>| {
-        values.sort_by(f64::total_cmp);
-        values[values.len() / 2]
-    };
     let half = speeds.len() / 2;
     let slopes = speeds.iter().zip(&speeds[half..]).map(|(a, b)| (b[1] - a[1]) / (b[0] - a[0])).collect();
     Some([median(speeds.iter().map(|s| s[1]).collect()), median(slopes)])

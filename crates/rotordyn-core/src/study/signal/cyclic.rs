@@ -5,8 +5,8 @@ use crate::results::{CyclicLine, CyclicResult};
 use rotordyn_signal::SignalError;
 use rotordyn_signal::bearing_lines::BearingPart;
 use rotordyn_signal::cyclic::cyclic_coherence;
-use rotordyn_signal::jerk::median;
 use rotordyn_signal::spectrum::{Spectrum, Welch};
+use rotordyn_signal::statistics::median;
 
 /// Samples of a segment: the carrier resolution is the sampling rate divided by it.
 const SEGMENT: usize = 256;
