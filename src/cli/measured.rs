@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use rotordyn::analysis::modal::Mode;
 use rotordyn::analysis::table_range::check_tables;
 use rotordyn::io::measured::test_data::{self, ReadSettings, TestData};
 use rotordyn::model::Model;
@@ -9,7 +10,7 @@ use rotordyn::signal::record::MeasuredData;
 use rotordyn::units::{self, FREQUENCY, SPEED};
 use rotordyn::update::correlation::Correlation;
 use rotordyn::update::state::ModelState;
-use rotordyn::update::target::Target;
+use rotordyn::update::target::{Sensor, Target};
 use rotordyn::warning::Code;
 
 use super::args::MeasuredArgs;
@@ -100,48 +101,61 @@ pub fn stem(path: &Path) -> String {
 /// Table of mode pairs and of unpaired measured and computed modes, sorted by frequency.
 pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &ModelState) {
     let per_cent = |v: f64| format!("{:.3}", 100.0 * v);
-    let mut rows: Vec<(f64, Vec<String>)> = Vec::new();
+    // Of files of modes the errors are not known.
+    let has_errors = target.modes.iter().any(|m| m.frequency_error > 0.0);
+    let dash = || "-".to_string();
+    let error = |value: f64| if value > 0.0 { number(value, 2) } else { dash() };
+    let mut rows: Vec<(f64, [String; 9])> = Vec::new();
     for (k, measured) in target.modes.iter().enumerate() {
-        let damping = measured.damping_ratio.map_or("-".into(), per_cent);
-        let mut row = vec![format!("{:.3}", measured.frequency_hz)];
-        match state.paired_mode(k) {
-            Some((mode, mac)) => row.extend([
-                format!("{:.3}", mode.frequency_hz()),
-                format!("{:+.2}", 100.0 * (mode.frequency_hz() / measured.frequency_hz - 1.0)),
-                damping,
-                per_cent(mode.zeta()),
-                format!("{mac:.3}"),
-                mode.label.clone(),
-            ]),
-            None => row.extend([
-                "-".into(),
-                "-".into(),
-                damping,
-                "-".into(),
-                "-".into(),
-                "(not in the model)".into(),
-            ]),
-        }
-        rows.push((measured.frequency_hz, row));
+        let pair = state.paired_mode(k);
+        let hz = measured.frequency_hz;
+        let computed = |text: &dyn Fn(&Mode) -> String| pair.map_or_else(dash, |(mode, _)| text(mode));
+        let row = [
+            format!("{hz:.3}"),
+            error(measured.frequency_error),
+            computed(&|mode| format!("{:.3}", mode.frequency_hz())),
+            computed(&|mode| format!("{:+.2}", 100.0 * (mode.frequency_hz() / hz - 1.0))),
+            measured.damping_ratio.map_or_else(dash, per_cent),
+            error(100.0 * measured.damping_error),
+            computed(&|mode| per_cent(mode.zeta())),
+            pair.map_or_else(dash, |(_, mac)| format!("{mac:.3}")),
+            pair.map_or("(not in the model)".into(), |(mode, _)| mode.label.clone()),
+        ];
+        rows.push((hz, row));
     }
     let [low, high] = band(target);
     for &k in &state.pairing.unpaired_computed {
         let mode = &state.modes[k];
-        if (low..=high).contains(&mode.frequency_hz()) {
-            let label = format!("{} (not measured)", mode.label);
-            let dash = || "-".to_string();
-            let own = format!("{:.3}", mode.frequency_hz());
-            rows.push((
-                mode.frequency_hz(),
-                vec![dash(), own, dash(), dash(), per_cent(mode.zeta()), dash(), label],
-            ));
+        let hz = mode.frequency_hz();
+        if (low..=high).contains(&hz) {
+            let mut row: [String; 9] = std::array::from_fn(|_| dash());
+            row[2] = format!("{hz:.3}");
+            row[6] = per_cent(mode.zeta());
+            row[8] = format!("{} (not measured)", mode.label);
+            rows.push((hz, row));
         }
     }
     rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let rows: Vec<Vec<String>> = rows.into_iter().map(|r| r.1).collect();
-    let header =
-        ["measured Hz", "computed Hz", "error %", "measured zeta %", "computed zeta %", "MAC", "mode"];
+    const HEADER: [&str; 9] = [
+        "measured Hz",
+        "+-",
+        "computed Hz",
+        "error %",
+        "measured zeta %",
+        "+-",
+        "computed zeta %",
+        "MAC",
+        "mode",
+    ];
+    let shown = |k: &usize| has_errors || HEADER[*k] != "+-";
+    let columns: Vec<usize> = (0..HEADER.len()).filter(shown).collect();
+    let rows: Vec<Vec<String>> =
+        rows.into_iter().map(|(_, row)| columns.iter().map(|k| row[*k].clone()).collect()).collect();
+    let header: Vec<&str> = columns.iter().map(|k| HEADER[*k]).collect();
     terminal.table(&format!("{title} at {:.0} rpm", rpm(target.speed)), &header, &rows);
+    if has_errors {
+        terminal.print("  +- is one standard error of the measured value.");
+    }
 }
 
 /// Relative frequency difference above which a mode pair gets a warning.
@@ -175,27 +189,49 @@ pub fn pair_warnings(terminal: &Terminal, target: &Target, state: &ModelState) -
     Ok(())
 }
 
+/// Warns about shapes of a rotating shaft compared with a model that stands still.
+pub fn standstill_warning(terminal: &Terminal, found: &Correlation) {
+    if found.whirls_at_standstill() {
+        terminal.warn_of(
+            Code::MeasuredData,
+            "the measured shapes whirl, forward and backward, but the model stands still: if the shaft was rotating, state its \
+             speed with --speed",
+        );
+    }
+}
+
 /// Frequency band of the measured modes, widened to 0.8 and 1.1 times its ends.
 pub fn band(target: &Target) -> [f64; 2] {
     let all = || target.modes.iter().map(|m| m.frequency_hz);
     [0.8 * all().fold(f64::INFINITY, f64::min), 1.1 * all().fold(0.0, f64::max)]
 }
 
-/// Table of the frequency response assurance criterion (FRAC) of every response and reference.
-pub fn frac_table(terminal: &Terminal, found: &Correlation) {
-    let (Some(measured), Some(values)) = (&found.target.frfs, found.frac()) else { return };
+/// Tables of the frequency response assurance criterion (FRAC) and of the levels of every response and reference, and what
+/// they say of units, signs and points.
+pub fn frf_tables(terminal: &Terminal, found: &Correlation) {
+    let (Some(measured), Some(frac), Some(level)) = (&found.target.frfs, found.frac(), found.frf_level_db())
+    else {
+        return;
+    };
     let model = &found.state.linearised.model;
     let mut header = vec!["response".to_string()];
     header.extend(measured.references.iter().map(|s| s.name(model)));
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    let rows: Vec<Vec<String>> = measured
-        .responses
-        .iter()
-        .zip(&values)
-        .map(|(sensor, row)| {
-            let own = row.iter().map(|v| if v.is_nan() { "-".into() } else { number(*v, 3) });
-            std::iter::once(sensor.name(model)).chain(own).collect()
-        })
-        .collect();
-    terminal.table("FRAC by response and reference (force)", &header, &rows);
+    let table = |title: &str, values: &[Vec<f64>], text: &dyn Fn(f64) -> String| {
+        let row = |(sensor, row): (&Sensor, &Vec<f64>)| {
+            std::iter::once(sensor.name(model)).chain(row.iter().map(|v| text(*v))).collect()
+        };
+        let rows: Vec<Vec<String>> = measured.responses.iter().zip(values).map(row).collect();
+        terminal.table(title, &header, &rows);
+    };
+    let title = "FRAC by response and reference (force)";
+    table(title, &frac, &|v| if v.is_nan() { "-".into() } else { number(v, 3) });
+    let title = "Level of computed over measured FRFs, dB, median over the frequencies";
+    table(title, &level, &|v| if v.abs() < MOST_LEVEL_DB { format!("{v:+.1}") } else { "-".into() });
+    for text in found.frf_faults() {
+        terminal.warn_of(Code::FrfLevel, text);
+    }
 }
+
+/// Level beyond which one of two FRFs is zero but for rounding \[dB\].
+const MOST_LEVEL_DB: f64 = 150.0;

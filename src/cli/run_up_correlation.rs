@@ -10,7 +10,7 @@ use rotordyn::io::measured::{mapping, run_up};
 use rotordyn::io::{machine_records, results_file};
 use rotordyn::model::Model;
 use rotordyn::results::{Agreement, CampbellResult, ChannelPair, CutPair, StepError, level_difference_db};
-use rotordyn::study::{Machine, MeasuredRun};
+use rotordyn::study::{Machine, MeasuredRun, smeared_maxima};
 use rotordyn::update::UpdateError;
 use rotordyn::warning::Code;
 
@@ -220,6 +220,11 @@ pub fn compare(
     }
     for warning in job.machine.run_up_warnings(computed) {
         terminal.warn(&warning.prefixed("the simulated run-up"));
+    }
+    let sides = ["the measured run-up", "the simulated run-up"];
+    let smeared = |side: usize| smeared_maxima(pairs.iter().map(move |pair| &pair.orders[side]));
+    for (side, warning) in (0..2).flat_map(|k| smeared(k).into_iter().map(move |w| (sides[k], w))) {
+        terminal.warn(&warning.prefixed(side));
     }
     Ok((Some(compared), files))
 }

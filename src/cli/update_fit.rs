@@ -211,7 +211,7 @@ impl Fit {
         self.pair_warnings(terminal)?;
         let stages = self.correlations();
         if let Some([before, now]) = self.frf_difference_db(&stages) {
-            measured::frac_table(terminal, &stages[1]);
+            measured::frf_tables(terminal, &stages[1]);
             terminal.print(&format!(
                 "\nFRF difference {} dB after the update, {} dB before (RMS over the fitted frequency lines)",
                 number(now, 2),

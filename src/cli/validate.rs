@@ -120,7 +120,8 @@ fn compare_structures(
         measured::mode_table(terminal, "Measured and computed modes", &read.target, state);
         measured::pair_warnings(terminal, &read.target, state)?;
         let correlation = Correlation::new(&read.target, state)?;
-        measured::frac_table(terminal, &correlation);
+        measured::standstill_warning(terminal, &correlation);
+        measured::frf_tables(terminal, &correlation);
         let prefix = match found.len() {
             1 => "validation".to_string(),
             _ => format!("validation_{}", stem(path)),

@@ -17,7 +17,7 @@
 //! | `one_band`, `bands` | modes of one band; a record that holds too much for one is split |
 //! | [`mac`](mod@mac) | MAC, FRAC, FDAC, phase collinearity |
 //! | [`sdof`] | single-degree-of-freedom (SDOF) circle and peak fit of one mode |
-//! | `whirl` | whirl direction from x and y |
+//! | [`whirl`] | whirl direction from x and y |
 //! | [`operational`] | modes from responses alone: SSI-cov, FDD, harmonics of the shaft |
 //!
 //! H(s) = s^p \[Σ_r (ψ_r l_rᵀ/(s − λ_r) + conj. pair) + U + V/s²\]: ψ is the mode shape (right eigenvector),
@@ -48,7 +48,7 @@ mod settings;
 mod stabilisation;
 mod two_modes;
 mod uncertainty;
-mod whirl;
+pub mod whirl;
 mod window;
 
 pub use data::{is_force_over_motion, quantity_of};

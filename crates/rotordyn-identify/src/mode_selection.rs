@@ -39,6 +39,8 @@ const MAX_DAMPING_GROWTH: f64 = 3.0;
 const MIN_BROAD_DAMPING: f64 = 0.03;
 /// Support of a pole (mean similarity over the orders) from which it is held where it was stable.
 const MIN_HELD_SUPPORT: f64 = 0.3;
+/// Largest error of a held pole's frequency, relative.
+const MAX_HELD_ERROR: f64 = 0.05;
 /// Minimum significance F of a mode; the largest of many noise poles stays below it.
 const MIN_SIGNIFICANCE: f64 = 10.0;
 /// Maximum relative standard errors of a mode: of the frequency and of the damping ratio.
@@ -194,12 +196,8 @@ fn settle(
             duplicates.extend(fault.duplicate);
             at = problem.refine(fault.left, FINAL_STEPS);
         }
-        // A held pole that explains little is no mode: the orders share it for another reason.
-        let idle =
-            (0..at.poles.len()).find(|&m| at.poles[m].held && problem.local_gain(&at, m) < MIN_LOCAL_GAIN);
-        if let Some(idle) = idle {
-            let reason = "stable, but explains little of the FRFs".into();
-            dropped.push(DroppedPole { value: at.poles[idle].value, reason });
+        if let Some((idle, reason)) = held_fault(problem, &at) {
+            dropped.push(DroppedPole { value: at.poles[idle].value, reason: reason.into() });
             at = refined_without(problem, at, idle)?;
             continue;
         }
@@ -235,6 +233,20 @@ fn settle(
         dropped.extend(fault(worst));
         at = refined_without(problem, at, worst)?;
     }
+}
+
+/// A held pole that is no mode, and why: the orders share it for another reason.
+fn held_fault(problem: &Problem, at: &FitPoint) -> Option<(usize, &'static str)> {
+    let idle = (0..at.poles.len()).find(|&m| at.poles[m].held && problem.local_gain(at, m) < MIN_LOCAL_GAIN);
+    if let Some(idle) = idle {
+        return Some((idle, "stable, but explains little of the FRFs"));
+    }
+    let is_undetermined = |(m, pull): &(usize, Complex64)| {
+        let value = at.poles[*m].value;
+        at.poles[*m].is_inside(problem.data().band()) && pull.im.abs() > MAX_HELD_ERROR * value.im
+    };
+    let found = pulls(problem, at).into_iter().find(is_undetermined);
+    found.map(|(m, _)| (m, "stable, but the FRFs do not determine its frequency"))
 }
 
 /// The minimum without a pole. `None` if no pole remains.

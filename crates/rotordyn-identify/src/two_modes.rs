@@ -38,8 +38,11 @@ pub(super) fn noise(at: &FitPoint, lines: usize) -> f64 {
     at.residual.as_slice().chunks(lines).map(of).sum()
 }
 
-/// MAC above which a second pole may take up what differs between the FRFs of one mode.
+/// MAC above which a second pole may take up what differs between the FRFs of one mode, unless it explains far more than is
+/// left; and MAC of one shape, whose second pole is that of a nonlinear mode or of noise of the force.
 const UNLIKE: f64 = 0.3;
+const FAR_MORE: f64 = 5.0;
+const ONE_SHAPE: f64 = 0.9;
 
 /// Whether two poles, which take the place of the poles `taken`, are two modes with shapes of a MAC below `shapes`.
 pub(super) fn are_two(
@@ -69,9 +72,11 @@ pub(super) fn are_two(
     let here = Problem::new(&window.data);
     let two = here.refine(all, TOGETHER_STEPS);
     let (a, b) = (two.poles.len() - 2, two.poles.len() - 1);
-    if least_mac(&window.data, &two, a, b) > shapes.min(UNLIKE) {
+    let alike = least_mac(&window.data, &two, a, b);
+    if alike > ONE_SHAPE {
         return false;
     }
+    let explained = if alike > shapes.min(UNLIKE) { FAR_MORE * MIN_EXPLAINED } else { MIN_EXPLAINED };
     let values = [two.poles[a].value, two.poles[b].value];
     let frfs: Vec<&Vec<Complex64>> = window.data.values.iter().flatten().collect();
     let each: Vec<f64> = frfs.par_iter().map(|frf| cost_of_one(&window.data, frf, &others, values)).collect();
@@ -80,7 +85,7 @@ pub(super) fn are_two(
     let gain = each - two.cost;
     let variance = two.residual_variance().max(f64::MIN_POSITIVE);
     gain > MIN_SIGNIFICANCE * 2.0 * frfs.len() as f64 * variance
-        && gain > MIN_EXPLAINED * (two.cost - noise).max(0.0)
+        && gain > explained * (two.cost - noise).max(0.0)
 }
 
 /// Squared residuals of one FRF with one pole of its own instead of two, and the other poles where they are.

@@ -7,7 +7,7 @@ use rotordyn_signal::record::Dof;
 /// φ_y*) / (|φ_x|² + |φ_y|²).
 ///
 /// q(t) = Re(φ e^{λt}) rotates from x towards y (forward, with the spin) if φ_y lags φ_x by 90°.
-pub(super) fn whirl(dofs: &[Dof], shape: &[Complex64]) -> Option<f64> {
+pub fn whirl(dofs: &[Dof], shape: &[Complex64]) -> Option<f64> {
     let along = |node: i64, axis: i8| {
         let at = dofs.iter().position(|d| d.node == node && d.direction.abs() == axis)?;
         Some(shape[at] * f64::from(dofs[at].direction.signum()))

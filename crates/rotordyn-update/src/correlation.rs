@@ -1,12 +1,15 @@
 //! Correlation of a model with a measurement: pairs of modes, MAC and FRAC.
 
 use super::UpdateFailure;
+use super::frf_levels::FrfLevels;
 use super::state::ModelState;
-use super::target::{Target, TargetFrfs, TargetMode};
+use super::target::{Sensor, Target, TargetFrfs, TargetMode};
 use rotordyn_core::analysis::modal::Mode;
 use rotordyn_core::document::{Array, Document, Rows, TO_RPM, Value, in_hdf5, in_json, named};
 use rotordyn_identify::mac::frac;
+use rotordyn_identify::whirl::whirl;
 use rotordyn_linalg::Complex64;
+use rotordyn_signal::record::Dof;
 
 /// A measurement beside the modes of a model and its FRFs at the measured points.
 pub struct Correlation<'a> {
@@ -41,6 +44,56 @@ impl<'a> Correlation<'a> {
         let references = 0..measured.references.len();
         let row = |r| references.clone().map(|e| value(r, e)).collect();
         Some((0..measured.responses.len()).map(row).collect())
+    }
+
+    /// Level of the computed FRFs over the measured ones \[dB\], median over the lines, `[response][reference]`; NaN for FRFs of
+    /// which one is zero.
+    pub fn frf_level_db(&self) -> Option<Vec<Vec<f64>>> {
+        let levels = self.frf_levels()?.log_ratios();
+        let decibel =
+            |row: Vec<f64>| row.into_iter().map(|log| 20.0 * log * std::f64::consts::LOG10_E).collect();
+        Some(levels.into_iter().map(decibel).collect())
+    }
+
+    /// Wrong units, signs and points that the FRFs show beside the computed ones, in words.
+    pub fn frf_faults(&self) -> Vec<String> {
+        let (Some(levels), Some(measured)) = (self.frf_levels(), &self.target.frfs) else {
+            return Vec::new();
+        };
+        let model = &self.state.linearised.model;
+        let names = |of: &[Sensor]| of.iter().map(|s| s.name(model)).collect::<Vec<_>>();
+        let (responses, references) = (names(&measured.responses), names(&measured.references));
+        levels.faults().iter().map(|fault| fault.text(&responses, &references)).collect()
+    }
+
+    fn frf_levels(&self) -> Option<FrfLevels<'_>> {
+        let (measured, computed) = self.measured_and_computed()?;
+        Some(FrfLevels::new(&measured.frequencies, &measured.values, computed))
+    }
+
+    /// Whether the measured shapes whirl, two modes of them against each other, while the model's do not: a rotating shaft
+    /// compared at standstill.
+    ///
+    /// Modes closer than 0.5 % to another are left out: of equal frequencies any combination is a mode.
+    pub fn whirls_at_standstill(&self) -> bool {
+        if self.target.speed != 0.0 {
+            return false;
+        }
+        let modes = &self.target.modes;
+        let dofs: Vec<Dof> = self.target.sensors.iter().map(|s| s.dof).collect();
+        let apart = |k: &usize| {
+            let own = modes[*k].frequency_hz;
+            modes.iter().enumerate().all(|(j, m)| j == *k || (m.frequency_hz / own).ln().abs() > DISTINCT)
+        };
+        let of_measured: Vec<f64> =
+            (0..modes.len()).filter(apart).filter_map(|k| whirl(&dofs, &modes[k].shape)).collect();
+        let computed = |k: usize| {
+            let pair = self.state.pairing.pairs.iter().find(|p| p.measured == k)?;
+            whirl(&dofs, &self.state.shapes[pair.computed])
+        };
+        let stands = (0..modes.len()).filter_map(computed).all(|w| w.abs() < 0.5 * WHIRLS);
+        let turns = |sign: f64| of_measured.iter().any(|w| sign * w > WHIRLS);
+        stands && turns(1.0) && turns(-1.0)
     }
 
     /// What is written to files.
@@ -82,11 +135,18 @@ impl<'a> Correlation<'a> {
             .array("computed", frfs(computed))
             .texts("responses", measured.responses.iter().map(|s| s.name(model)))
             .texts("references", measured.references.iter().map(|s| s.name(model)));
+        let levels = self.frf_level_db().unwrap_or_default().concat();
         Document::new()
             .group(in_hdf5("frf"), group)
             .array(named("frac", "frf/frac"), Array::real(&shape[..2], "1", frac.concat()))
+            .array(named("frf_level_db", "frf/level_db"), Array::real(&shape[..2], "dB", levels))
     }
 }
+
+/// Relative distance of frequencies from which modes are distinct.
+const DISTINCT: f64 = 0.005;
+/// Share of a circular motion from which a shape whirls.
+const WHIRLS: f64 = 0.5;
 
 /// A measured mode, and the computed one paired with it with their MAC.
 type Pair<'a> = (&'a TargetMode, Option<(&'a Mode, f64)>);
@@ -96,6 +156,7 @@ fn pair_rows<'a, 'r>(pairs: &'r [Pair<'r>]) -> Rows<'a, 'r, Pair<'r>> {
         .number("measured_hz", "Hz", |(m, _)| m.frequency_hz)
         .optional("measured_zeta", "1", |(m, _)| m.damping_ratio)
         .number("measured_hz_error", "Hz", |(m, _)| m.frequency_error)
+        .number("measured_zeta_error", "1", |(m, _)| m.damping_error)
         .optional("computed_hz", "Hz", |(_, pair)| pair.map(|(mode, _)| mode.frequency_hz()))
         .optional("computed_zeta", "1", |(_, pair)| pair.map(|(mode, _)| mode.zeta()))
         .optional("error", "1", |(m, pair)| pair.map(|(mode, _)| mode.frequency_hz() / m.frequency_hz - 1.0))
@@ -113,6 +174,7 @@ fn measured_modes<'a>(target: &'a Target, state: &ModelState) -> Document<'a> {
         .numbers("frequency", "Hz", column(&|k| modes[k].frequency_hz))
         .numbers("frequency_error", "Hz", column(&|k| modes[k].frequency_error))
         .numbers("zeta", "1", column(&|k| modes[k].damping_ratio.unwrap_or(f64::NAN)))
+        .numbers("zeta_error", "1", column(&|k| modes[k].damping_error))
         .array("shapes", Array::complex(&[modes.len(), target.sensors.len()], "1", shapes))
         // Index of the computed mode, -1 without one.
         .numbers("paired_mode", "1", column(&partner))

@@ -7,6 +7,7 @@
 //! | `repeated` | repeated eigenvalues: modes of one frequency aligned with the measured shapes |
 //! | [`state`] | the model's modes at the measured points, paired |
 //! | [`correlation`] | measured and computed modes and FRFs side by side: MAC, FRAC |
+//! | [`frf_levels`] | levels and signs of measured FRFs beside computed ones: wrong units, reversed and exchanged sensors |
 //! | [`force_levels`] | shift of measured natural frequencies with the force level |
 //! | `job` | what is fitted to what, and the fit of any choice of parameters |
 //! | [`parameter`] | free parameters: numbers of the model file, single or grouped |
@@ -31,6 +32,7 @@ mod document;
 mod error;
 pub mod force_levels;
 pub mod frf;
+pub mod frf_levels;
 pub mod goodness;
 pub mod groups;
 pub mod identifiability;

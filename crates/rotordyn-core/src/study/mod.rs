@@ -53,6 +53,7 @@ pub use steady_motion::{Progress, RestartState};
 pub use step_error::{Checkpoints, run_for_step_error};
 pub use unbalance_comparison::compare_unbalance;
 pub use variant_comparison::{Variant, compare_variants};
+pub use warnings::smeared_maxima;
 
 use crate::analysis::ball_inertia::InertiaUse;
 use crate::analysis::equilibrium::Equilibrium;

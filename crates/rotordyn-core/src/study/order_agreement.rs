@@ -1,19 +1,24 @@
 //! Whether a measured and a computed order line agree within their uncertainty.
 //!
 //! A level is uncertain by the background in its band and by the shaft angle: with an angle off by σ, the order ν is off by
-//! ν σ of its amplitude at most. A computed one is uncertain by the time step as well. The calibration of a sensor is not
-//! known here.
+//! ν σ of its amplitude at most. A computed one is uncertain by the time step as well. A maximum within a window is too low by
+//! about what the window takes from it. The calibration of a sensor is not known here.
 
 use super::order_tracking::CUT_HALF_WIDTH;
 use crate::results::{Agreement, CutAgreement, CutPeak, OrderResult, StepError};
 use crate::series::SeriesError;
 use rotordyn_signal::order::OrderCut;
+use rotordyn_signal::order::smear::Smear;
 use rotordyn_signal::order_background::CutBackground;
 
 /// Standard deviations of a 95 % interval.
 const CONFIDENCE: f64 = 2.0;
-/// Part of the distance between windows by which the place of a maximum between them is uncertain.
+/// Part of the distance between windows by which the place of a maximum between them is uncertain: of a maximum that spans
+/// several windows, and of one that two or three windows hold.
 const BETWEEN_WINDOWS: f64 = 0.1;
+const WITHIN_A_WINDOW: f64 = 0.4;
+/// Windows at half the power and above from which a maximum spans several.
+const SPANNED_WINDOWS: usize = 6;
 
 /// Uncertainties that the spectra do not show.
 pub(super) struct KnownErrors<'a> {
@@ -26,6 +31,7 @@ pub(super) struct KnownErrors<'a> {
 pub(super) struct CutLevels<'a> {
     channel: &'a str,
     cuts: Vec<(&'a str, &'a OrderCut, Option<CutBackground>)>,
+    smeared: &'a [Smear],
 }
 
 impl<'a> CutLevels<'a> {
@@ -40,7 +46,18 @@ impl<'a> CutLevels<'a> {
             let background = spectrogram.cut_background(&amplitude, line.order, half_band, &lines);
             (line.label.as_str(), cut, background)
         };
-        Ok(Self { channel: &found.channel, cuts: found.cuts.iter().map(of).collect() })
+        Ok(Self {
+            channel: &found.channel,
+            cuts: found.cuts.iter().map(of).collect(),
+            smeared: &spectrogram.smeared,
+        })
+    }
+}
+
+impl CutLevels<'_> {
+    /// Part of the maximum of an order that the window takes.
+    fn smear_loss(&self, order: f64) -> f64 {
+        self.smeared.iter().filter(|smear| smear.order == order).map(|smear| smear.loss).fold(0.0, f64::max)
     }
 }
 
@@ -75,7 +92,11 @@ impl UncertainPeak {
             as_high.fold((peak.rpm, peak.rpm), |(low, high), rpm| (low.min(rpm), high.max(rpm)));
         let neighbours = [window.saturating_sub(1), (window + 1).min(cut.rpm.len() - 1)];
         let spacing = 0.5 * (cut.rpm[neighbours[1]] - cut.rpm[neighbours[0]]).abs();
-        let speed = (0.5 * (high - low) / CONFIDENCE).max(BETWEEN_WINDOWS * spacing);
+        let half_power = |k: &usize| cut.rms[*k] >= std::f64::consts::FRAC_1_SQRT_2 * peak.rms;
+        let spanned = (0..window).rev().take_while(half_power).count()
+            + (window..cut.rpm.len()).take_while(half_power).count();
+        let between = if spanned >= SPANNED_WINDOWS { BETWEEN_WINDOWS } else { WITHIN_A_WINDOW };
+        let speed = (0.5 * (high - low) / CONFIDENCE).max(between * spacing);
         let noise_limit = background.map(|b| b.limit(window));
         Self { level, speed: speed / peak.rpm.max(f64::MIN_POSITIVE), noise_limit }
     }
@@ -95,6 +116,7 @@ pub(super) fn agreement(
     });
     // The angle counts once: it drives the model, and measured and computed orders are read over it.
     let relative = [cut.order * errors.angle, step];
+    let relative = [0, 1].map(|run| relative[run].hypot(runs[run].smear_loss(cut.order) / CONFIDENCE));
     let uncertain = [0, 1].map(|run| {
         let (_, cut, background) = &runs[run].cuts[k];
         UncertainPeak::new(cut, background.as_ref(), peaks[run], relative[run])

@@ -195,6 +195,10 @@ codes! {
         "A measured and a computed mode are paired although their shapes agree poorly (MAC below 0.5) or their frequencies \
          differ by more than 20 %.",
         "measure at more points, or restrict the pairs";
+    FrfLevel, "frf-level", Caution,
+        "Measured FRFs differ from the computed ones by a factor, a sign, a power of the frequency or an exchange of points that \
+         wrong units, a sensor or its place explain, not the model.",
+        "check unit, calibration, direction and point of what the warning names";
     // Runs
     EnergyBalance, "energy-balance", Serious,
         "The energies of a run do not balance: the time step is too long for the forces.",

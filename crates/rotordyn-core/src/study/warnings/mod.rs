@@ -9,6 +9,7 @@ mod supports;
 mod tables;
 mod whirl;
 
+pub use order_tracks::smeared_maxima;
 pub(super) use supports::standstill_and_top;
 
 use super::Machine;

@@ -25,17 +25,18 @@ pub(super) fn orders_in_one_band(results: &Results) -> Option<Warning> {
 }
 
 /// The cut and the track that lose most at their maximum, by the window and by the bandwidth.
-pub(super) fn smeared_maxima(results: &Results) -> Vec<Warning> {
+pub fn smeared_maxima<'a>(orders: impl IntoIterator<Item = &'a OrderResult>) -> Vec<Warning> {
+    let orders: Vec<&OrderResult> = orders.into_iter().collect();
     let label = |found: &OrderResult, order: f64| {
         let line = found.cuts.iter().find(|(line, _)| line.order == order);
         line.map_or_else(|| format!("{}x", number(order, 4)), |(line, _)| line.label.clone())
     };
     let worst = |smears: &dyn Fn(&OrderResult) -> Vec<Smear>| {
-        let all: Vec<(&OrderResult, Smear)> = results
-            .orders
-            .iter()
-            .flat_map(|found| smears(found).into_iter().map(move |smear| (found, smear)))
-            .collect();
+        let of = |found: &&'a OrderResult| {
+            let found = *found;
+            smears(found).into_iter().map(move |smear| (found, smear))
+        };
+        let all: Vec<(&OrderResult, Smear)> = orders.iter().flat_map(of).collect();
         let (found, smear) = *all.iter().max_by(|a, b| a.1.loss.total_cmp(&b.1.loss))?;
         let more = match all.len() - 1 {
             0 => String::new(),

@@ -17,7 +17,7 @@ const WIDTH_RATIO: f64 = 2.0;
 /// Order lines that a window of the spectrogram, of the cuts or of the tracks smears.
 pub(super) fn smeared_orders(model: &Model, results: &Results) -> Vec<Warning> {
     let mut found: Vec<Warning> = smeared_line(model, results).into_iter().collect();
-    found.extend(smeared_maxima(results));
+    found.extend(smeared_maxima(&results.orders));
     found
 }
 
