@@ -215,7 +215,7 @@ pub fn all(x: &[f64], y: &[f64], name: &str) -> Vec<Figure> {
                     period: x.iter().zip(&y).map(|(x, y)| [*x, *y]).collect(),
                     quasi_periodic: x.clone(),
                     chaotic: y.clone(),
-                    not_settled: x.clone(),
+                    undecided: x.clone(),
                     exponent: x.iter().zip(&y).map(|(x, y)| [*x, *y, 0.1 * y]).collect(),
                 },
                 SweepPoints { x: y.clone(), y: x.clone(), ..Default::default() },

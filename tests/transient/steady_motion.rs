@@ -85,6 +85,24 @@ fn lyapunov_exponent_of_a_linear_rotor_is_its_decay_rate() {
     }
 }
 
+/// The rotation of a shaft that no station drives is free: no instability, though its perturbed angle grows without end.
+#[test]
+fn free_rotation_has_no_part_in_the_lyapunov_exponent() {
+    let speed = 2400.0 * RPM;
+    let mut model = jeffcott(&[("damping.modal.ratio", "0.02")]);
+    model.drive = rotordyn::model::Drive::Prescribed { node: None };
+    let machine = Machine::new(model).unwrap();
+    let modes = machine.modal(&ModalStudy { speeds: vec![speed], modes: 12 }).unwrap();
+    let decay =
+        modes[0].modes.iter().map(|m| m.eigenvalue.re).filter(|re| *re < -1e-6).fold(f64::MIN, f64::max);
+    let mut steady = steady(speed, SectionTrigger::Shaft, 1e-4, [160, 160]);
+    steady.cutoff = 150.0;
+    let study = LyapunovStudy { steady, perturbation: 1e-9 };
+    let exponent = machine.lyapunov(&study, &mut go).unwrap().unwrap().exponent;
+    println!("{:.5} ± {:.5}, linear {decay:.5}", exponent.value, exponent.standard_error);
+    assert!((exponent.value / decay - 1.0).abs() < 2e-3, "{}, linear {decay}", exponent.value);
+}
+
 /// The Poincaré section of a linear rotor is one point: static sag plus unbalance response at that shaft angle.
 #[test]
 fn section_of_a_linear_rotor_is_its_unbalance_response() {

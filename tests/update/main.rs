@@ -5,5 +5,6 @@ mod rig;
 
 mod double_eigenvalues;
 mod frf_fit;
+mod frf_levels;
 mod misfit_study;
 mod rig_as_truth;

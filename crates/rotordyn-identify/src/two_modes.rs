@@ -38,11 +38,12 @@ pub(super) fn noise(at: &FitPoint, lines: usize) -> f64 {
     at.residual.as_slice().chunks(lines).map(of).sum()
 }
 
-/// MAC above which a second pole may take up what differs between the FRFs of one mode, unless it explains far more than is
-/// left; and MAC of one shape, whose second pole is that of a nonlinear mode or of noise of the force.
+/// MAC below which the shapes may be those of FRFs of one mode that differ, each on its own outputs; and above which they are
+/// one shape, whose second pole is that of a nonlinear mode or of noise of the force. Between them a second pole that
+/// explains little more than is left, of misfit by modes outside of the window, is a mode.
 const UNLIKE: f64 = 0.3;
-const FAR_MORE: f64 = 5.0;
 const ONE_SHAPE: f64 = 0.9;
+const MIN_EXPLAINED_BETWEEN: f64 = 4.0;
 
 /// Whether two poles, which take the place of the poles `taken`, are two modes with shapes of a MAC below `shapes`.
 pub(super) fn are_two(
@@ -76,7 +77,7 @@ pub(super) fn are_two(
     if alike > ONE_SHAPE {
         return false;
     }
-    let explained = if alike > shapes.min(UNLIKE) { FAR_MORE * MIN_EXPLAINED } else { MIN_EXPLAINED };
+    let explained = if alike > shapes.min(UNLIKE) { MIN_EXPLAINED_BETWEEN } else { MIN_EXPLAINED };
     let values = [two.poles[a].value, two.poles[b].value];
     let frfs: Vec<&Vec<Complex64>> = window.data.values.iter().flatten().collect();
     let each: Vec<f64> = frfs.par_iter().map(|frf| cost_of_one(&window.data, frf, &others, values)).collect();

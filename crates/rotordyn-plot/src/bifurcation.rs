@@ -25,8 +25,8 @@ pub struct SweepPoints {
     /// Parameters with quasi-periodic and with chaotic motion.
     pub quasi_periodic: Vec<f64>,
     pub chaotic: Vec<f64>,
-    /// Parameters at which the transient has not decayed.
-    pub not_settled: Vec<f64>,
+    /// Parameters at which the transient has not decayed, or too few points tell the motion.
+    pub undecided: Vec<f64>,
     /// Parameter, largest Lyapunov exponent and its standard error; may be empty.
     pub exponent: Vec<[f64; 3]>,
 }
@@ -49,8 +49,8 @@ const MAX_PERIOD_SHOWN: f64 = 8.0;
 /// Ordinates of quasi-periodic and chaotic motion in that panel.
 const QUASI_PERIODIC_LEVEL: f64 = MAX_PERIOD_SHOWN + 1.7;
 const CHAOTIC_LEVEL: f64 = MAX_PERIOD_SHOWN + 3.4;
-/// Ordinate of motions that have not settled, shown if there are any.
-const NOT_SETTLED_LEVEL: f64 = MAX_PERIOD_SHOWN + 5.1;
+/// Ordinate of undecided motions, shown if there are any.
+const UNDECIDED_LEVEL: f64 = MAX_PERIOD_SHOWN + 5.1;
 
 pub fn draw(data: &Bifurcation) -> Svg {
     let sweeps = &data.sweeps[..data.sweeps.len().min(2)];
@@ -80,7 +80,7 @@ pub fn draw(data: &Bifurcation) -> Svg {
             .chain(periods)
             .chain(s.quasi_periodic.iter().copied())
             .chain(s.chaotic.iter().copied())
-            .chain(s.not_settled.iter().copied())
+            .chain(s.undecided.iter().copied())
     });
     let x = Range::of(all).padded(0.01);
     let y = Range::of(sweeps.iter().flat_map(|s| s.y.iter().copied())).padded(0.06);
@@ -110,9 +110,9 @@ fn motion_classes(
     x: Range,
     x_label: Option<&str>,
 ) {
-    let levels = [1.0, 2.0, 4.0, MAX_PERIOD_SHOWN, QUASI_PERIODIC_LEVEL, CHAOTIC_LEVEL, NOT_SETTLED_LEVEL];
-    let names = ["1", "2", "4", "≥ 8", "quasi-p.", "chaotic", "unsettled"];
-    let shown = levels.len() - usize::from(sweeps.iter().all(|s| s.not_settled.is_empty()));
+    let levels = [1.0, 2.0, 4.0, MAX_PERIOD_SHOWN, QUASI_PERIODIC_LEVEL, CHAOTIC_LEVEL, UNDECIDED_LEVEL];
+    let names = ["1", "2", "4", "≥ 8", "quasi-p.", "chaotic", "undecided"];
+    let shown = levels.len() - usize::from(sweeps.iter().all(|s| s.undecided.is_empty()));
     let mut axes = Axes::linear(frame, x, Range::new(0.3, levels[shown - 1] + 0.8));
     axes.y = Scale::at_ticks(axes.y, &levels[..shown]);
     for (tick, name) in axes.y.ticks.iter_mut().zip(names) {
@@ -125,7 +125,7 @@ fn motion_classes(
         let periods = sweep.period.iter().map(|[x, p]| [*x, p.min(MAX_PERIOD_SHOWN)]);
         let regular = sweep.quasi_periodic.iter().map(|x| [*x, QUASI_PERIODIC_LEVEL]);
         let chaotic = sweep.chaotic.iter().map(|x| [*x, CHAOTIC_LEVEL]);
-        let open = sweep.not_settled.iter().map(|x| [*x, NOT_SETTLED_LEVEL]);
+        let open = sweep.undecided.iter().map(|x| [*x, UNDECIDED_LEVEL]);
         let dots = periods.chain(regular).chain(chaotic).chain(open).map(|[x, y]| axes.at(x, y + shift));
         svg.dots(dots.filter(|p| axes.contains(*p)), 1.4, dot_style(k).0);
     }

@@ -14,6 +14,8 @@ const RETAINED_FREQUENCIES: usize = 70;
 const CHAOS_THRESHOLD: f64 = 0.5;
 /// Ratio of the second half's to the first half's recurrence error below which the motion counts as decaying.
 const MAX_DECAY_RATIO: f64 = 0.3;
+/// Section points from which the 0–1 test tells quasi-periodic from chaotic motion.
+const FEWEST_TESTED: usize = 100;
 /// Motion relative to the largest value below which a channel counts as at rest.
 const ROUND_OFF: f64 = 1e-12;
 
@@ -26,6 +28,8 @@ pub enum Motion {
     Settling(usize),
     /// Not settled: still changing, towards a motion that the section does not show.
     Unsettled,
+    /// Neither periodic nor still changing, but with too few points to tell quasi-periodic from chaotic motion.
+    Aperiodic,
     /// Regular but not periodic: incommensurate frequencies (or a period longer than the longest tried).
     QuasiPeriodic,
     /// Chaotic (irregular, by the 0–1 test).
@@ -39,6 +43,7 @@ impl Motion {
             Self::Periodic(k) => format!("period {k}"),
             Self::Settling(k) => format!("not settled, towards period {k}"),
             Self::Unsettled => "not settled".into(),
+            Self::Aperiodic => "not periodic (too few periods to classify)".into(),
             Self::QuasiPeriodic => "quasi-periodic".into(),
             Self::Chaotic => "chaotic".into(),
         }
@@ -102,7 +107,7 @@ impl Classification {
 /// 2. not settled, towards period k: k is the smallest whose error over the second half of the section is below a
 ///    tenth of the size and below 0.3 of the error over the first half (a decaying transient);
 /// 3. not settled if the changes over any k points are within the tolerance but add up to more;
-/// 4. chaotic when the 0–1 test ([`zero_one_test`]) gives K ≥ 0.5 for any channel whose section is wider than the
+/// 4. of fewer than 100 points aperiodic, or not settled as in 5; chaotic when the 0–1 test ([`zero_one_test`]) gives K ≥ 0.5 for any channel whose section is wider than the
 ///    tolerance;
 /// 5. not settled if the changes over the points after which the motion returns nearest to itself grow or decay
 ///    steadily, else quasi-periodic.
@@ -189,8 +194,9 @@ pub fn classify_motion(
     found.mean_square_change = moving.mean_square_change(nearest, 0, n - nearest);
     found.amplitude_trend = trend;
     found.motion = match found.zero_one_k {
-        k if k >= CHAOS_THRESHOLD => Motion::Chaotic,
+        k if k >= CHAOS_THRESHOLD && n >= FEWEST_TESTED => Motion::Chaotic,
         _ if is_trend => Motion::Unsettled,
+        _ if n < FEWEST_TESTED => Motion::Aperiodic,
         _ => Motion::QuasiPeriodic,
     };
     Ok(found)

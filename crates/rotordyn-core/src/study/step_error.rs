@@ -41,6 +41,8 @@ const SMALLEST_SHARE_OF_VIBRATION: f64 = 1e-3;
 /// Vibration of a probe below this share of the largest RMS value of a probe with its unit, offset included, is round-off: a
 /// direction that nothing excites. What two steps make of it says nothing.
 const ROUND_OFF: f64 = 1e-10;
+/// Motion below which it is round-off where nothing vibrates \[m, rad\]: the size of a nucleus.
+const SMALLEST_MOTION: f64 = 1e-15;
 
 /// States of a run at regular intervals, from which a stretch can be rerun: at most 65 of them, whatever its duration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -188,7 +190,7 @@ impl Machine {
                 let (level, other_level) = (own[k], other[k]);
                 let rate =
                     (line.order * mean_speed).powi(derivatives(reduction.system.channels.list()[k].quantity));
-                if level > least.max(ROUND_OFF * displacement * rate) {
+                if level > least.max((ROUND_OFF * displacement).max(SMALLEST_MOTION) * rate) {
                     let error = (other_level - level) / level * factor;
                     let channel = channel.name.clone();
                     lines.push(StepErrorLine { channel, line, level, other_level, error });

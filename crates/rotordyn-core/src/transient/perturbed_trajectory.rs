@@ -15,7 +15,8 @@ use rotordyn_bearing::Rotation;
 ///
 /// Displacements and velocities are perturbed; shaft and cages rotate as in the reference run, as part of the
 /// excitation. (A perturbed cage angle would give every motion of a perfect bearing a zero exponent, that of
-/// a time shift.) The norm is twice the energy, |δ|² = δẋᵀ δẋ + δxᵀ (K + Wᵀ K_b W + ε) δx, with the bearing
+/// a time shift.) So does the free rotation of a shaft that no station drives: a perturbed speed would let the angle grow
+/// without end and without instability. The norm is twice the energy, |δ|² = δẋᵀ δẋ + δxᵀ (K + Wᵀ K_b W + ε) δx, with the bearing
 /// stiffness K_b at the start and ε = 1 s⁻² for rigid-body modes: constant for an undamped vibration.
 pub struct PerturbedTrajectory {
     state: State,
@@ -23,6 +24,8 @@ pub struct PerturbedTrajectory {
     stiffness: DMatrix<f64>,
     /// Norm to which the perturbation is renormalised.
     size: f64,
+    /// Free rotation of the shaft, of length 1, if nothing holds it.
+    free_rotation: Option<DVector<f64>>,
     /// Cage states of the reference run before the step, and the mean cos α that sets their speed.
     cages: Vec<(Rotation, f64)>,
     dx: DVector<f64>,
@@ -67,7 +70,8 @@ impl PerturbedTrajectory {
         let PerturbedSnapshot { state, stepper, stiffness, size, cages } = snapshot;
         let zero = || DVector::zeros(system.size());
         let stepper = Stepper::after(system, integrator, &stepper);
-        Self { state, stepper, stiffness, size, cages, dx: zero(), dv: zero() }
+        let free_rotation = free_rotation(system, &stiffness);
+        Self { state, stepper, stiffness, size, free_rotation, cages, dx: zero(), dv: zero() }
     }
 
     /// Copies `reference` with a perturbation of equal energy in every coordinate, whose largest displacement in any
@@ -84,8 +88,11 @@ impl PerturbedTrajectory {
         // Quasi-random (golden ratio): excites every mode, and is the same in every run.
         let golden = 0.5 * (5f64.sqrt() - 1.0);
         let spread = |k: usize| 2.0 * ((k + 1) as f64 * golden).fract() - 1.0;
-        let dx = DVector::from_fn(n, |i, _| spread(2 * i) / stiffness[(i, i)].sqrt());
-        let dv = DVector::from_fn(n, |i, _| spread(2 * i + 1));
+        let mut dx = DVector::from_fn(n, |i, _| spread(2 * i) / stiffness[(i, i)].sqrt());
+        let mut dv = DVector::from_fn(n, |i, _| spread(2 * i + 1));
+        let free_rotation = free_rotation(system, &stiffness);
+        remove(&mut dx, free_rotation.as_ref());
+        remove(&mut dv, free_rotation.as_ref());
         let mut moved = vec![0.0; system.interface_size()];
         system.to_interface(&dx, &mut moved);
         let translations = |i: &Interface| moved[i.row_range()].iter().take(3).copied().collect::<Vec<_>>();
@@ -98,6 +105,7 @@ impl PerturbedTrajectory {
             stepper: Stepper::new(system, integrator, step),
             stiffness,
             size: 1.0,
+            free_rotation,
             cages: Vec::new(),
             dx: dx * scale,
             dv: dv * scale,
@@ -143,12 +151,16 @@ impl PerturbedTrajectory {
         self.dx -= &reference.x;
         self.dv.copy_from(&state.v);
         self.dv -= &reference.v;
+        let free = self.free_rotation.as_ref();
+        remove(&mut self.dx, free);
+        remove(&mut self.dv, free);
         let norm = self.energy_norm();
         let back = self.size / norm;
         let state = &mut self.state;
-        // y ← y_ref + (y − y_ref) back
+        // y ← y_ref + (y − y_ref) back, without the free rotation.
         let scale = |y: &mut DVector<f64>, at: &DVector<f64>| {
             *y -= at;
+            remove(y, free);
             *y *= back;
             *y += at;
         };
@@ -167,6 +179,25 @@ impl PerturbedTrajectory {
 
     fn energy_norm(&self) -> f64 {
         (self.dv.norm_squared() + self.dx.dot(&(&self.stiffness * &self.dx)).max(0.0)).sqrt()
+    }
+}
+
+/// Largest ω² of a rotation that nothing holds \[rad²/s²\], above rounding of the stiffness and below that of any spring.
+const FREE: f64 = 1e-4;
+
+/// Rotation of the whole shaft about its axis, of length 1, if no stiffness holds it.
+fn free_rotation(system: &System, stiffness: &DMatrix<f64>) -> Option<DVector<f64>> {
+    let rotation = system.rigid_rotation.clone().try_normalize(0.0)?;
+    // The norm's stiffness contains ε.
+    let held = rotation.dot(&(stiffness * &rotation)) - 1.0;
+    (held < FREE).then_some(rotation)
+}
+
+/// Removes the component along a direction of length 1.
+fn remove(y: &mut DVector<f64>, direction: Option<&DVector<f64>>) {
+    if let Some(direction) = direction {
+        let along = direction.dot(y);
+        y.axpy(-along, direction, 1.0);
     }
 }
 

@@ -298,6 +298,7 @@ pub fn reduce(
         cross_coupling: has_cross_coupling.then(|| project(&cross_coupling)),
         static_load: vector(&static_load),
         unbalance,
+        rigid_rotation: vector(&assembly.spin_momentum),
         spin_inertia: vector(&assembly.spin_momentum) * if driven { -1.0 } else { 0.0 },
         varying_loads: varying
             .iter()

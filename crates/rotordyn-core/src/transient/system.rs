@@ -44,6 +44,8 @@ pub struct System {
     pub static_load: DVector<f64>,
     /// Unbalance along cos θ and sin θ, per Ω².
     pub unbalance: [DVector<f64>; 2],
+    /// Vᵀ M r: the rotation of the whole shaft about its axis by 1 rad.
+    pub rigid_rotation: DVector<f64>,
     /// −Vᵀ M r: inertial load on torsion per unit Ω̇.
     pub spin_inertia: DVector<f64>,
     pub varying_loads: Vec<VaryingLoad>,

@@ -146,7 +146,7 @@ fn points(sweep: &BifurcationSweep, channel: usize, factor: f64) -> SweepPoints 
         out.y.extend(sections[channel].iter().map(|v| v * factor));
         match motion.motion {
             Motion::Periodic(k) => out.period.push([value, k as f64]),
-            Motion::Settling(_) | Motion::Unsettled => out.not_settled.push(value),
+            Motion::Settling(_) | Motion::Unsettled | Motion::Aperiodic => out.undecided.push(value),
             Motion::QuasiPeriodic => out.quasi_periodic.push(value),
             Motion::Chaotic => out.chaotic.push(value),
         }

@@ -162,7 +162,8 @@ fn decaying_spirals_tend_to_period_one() {
                 }
                 // Allowed if the changes hardly decay over the record, or differ between its halves, so that a second
                 // record must confirm it.
-                Motion::QuasiPeriodic => {
+                Motion::QuasiPeriodic | Motion::Aperiodic => {
+                    assert_eq!(found.motion == Motion::Aperiodic, points < 100, "{what}");
                     assert!(rho.powi(points) > 0.98 || found.amplitude_trend.abs() > 0.01, "{what}");
                 }
                 Motion::Unsettled => assert!(end > 0.3 * TOLERANCE * rho.powi(points), "{what}"),

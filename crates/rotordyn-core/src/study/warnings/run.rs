@@ -9,10 +9,15 @@ use crate::results::{BifurcationPoint, RunUpResult};
 use crate::study::{Machine, Results};
 use crate::transient::run::{End, Report};
 use crate::warning::{Code, Warning};
+use rotordyn_signal::motion_classification::Motion;
 use std::f64::consts::TAU;
 
 /// Residual of the energy balance over the energy exchanged, above which the step is too long.
 const OPEN_BALANCE: f64 = 1e-3;
+/// Residual over the largest stored energy, mostly that of the static load, below which next to nothing vibrates.
+const AT_REST: f64 = 1e-6;
+/// Error of a level from which chaos may be its cause.
+const CHAOTIC_ERROR: f64 = 0.3;
 /// Round-off of a step's energies, in that of one operation.
 const ROUND_OFFS: f64 = 16.0;
 /// Linear modes looked at where a motion grows, and exponent of their growth from which they matter.
@@ -33,7 +38,7 @@ impl Machine {
         let energy = &run.report.energy;
         let residual = energy.residual().abs();
         let open = residual / energy.exchanged().max(f64::MIN_POSITIVE);
-        let is_open = open > OPEN_BALANCE && residual > rounding(&run.report);
+        let is_open = open > OPEN_BALANCE && residual > least_residual(&run.report);
         let diverged = matches!(run.report.end, End::Failed(PhysicsError::Diverged { .. }));
         let unstable = if is_open || diverged { self.growing_mode(run) } else { None };
         if let Some((speed, mode)) = &unstable {
@@ -67,7 +72,11 @@ impl Machine {
                 100.0 * line.error.abs()
             );
             let needed = 1e6 * step * (0.01 / line.error.abs()).sqrt();
-            warn(Code::TimeStep, text, format!("about {needed:.3} us would give 1 %"));
+            let chaotic = match line.error.abs() > CHAOTIC_ERROR {
+                true => ", unless the motion is chaotic: then two steps part whatever their length",
+                false => "",
+            };
+            warn(Code::TimeStep, text, format!("about {needed:.3} us would give 1 %{chaotic}"));
         }
         if run.frequency_error > FREQUENCY_ERROR {
             let text =
@@ -96,12 +105,15 @@ impl Machine {
     }
 }
 
-/// Round-off of the energy balance \[J\]: that of its largest term at every step, which adds up by chance.
-fn rounding(report: &Report) -> f64 {
+/// Least residual of the energy balance \[J\] that counts: round-off of its largest term at every step, which adds up by chance,
+/// and a millionth of the largest stored energy.
+fn least_residual(report: &Report) -> f64 {
     let e = &report.energy;
     let terms = [e.kinetic, e.strain, e.contact, e.start, e.work, e.drive, e.parametric];
     let largest = terms.iter().fold(0.0, |largest: f64, term| largest.max(term.abs()));
-    ROUND_OFFS * f64::EPSILON * largest * (report.steps.max(1) as f64).sqrt()
+    let stored = e.strain.abs().max(e.contact.abs());
+    let rounding = ROUND_OFFS * f64::EPSILON * largest * (report.steps.max(1) as f64).sqrt();
+    rounding.max(AT_REST * stored)
 }
 
 /// The highest order line of the spectrograms that leaves the record: above half its sampling rate at the highest speed.
@@ -157,6 +169,20 @@ pub(super) fn settling(model: &Model, results: &Results) -> Vec<Warning> {
         let advice = format!("raise transient_limit ({})", study.steady.transient_limit);
         warnings.push(Warning::new(Code::NotSettled, "study.poincare", text).advise(advice));
     }
+    if let Some(found) = results.poincare.as_ref().filter(|found| found.motion.motion == Motion::Aperiodic) {
+        let at = format!("{:.1} rpm", found.speed * TO_RPM);
+        warnings.push(too_few_periods("poincare", &format!("the motion at {at} is")));
+    }
+    if let Some(found) = &results.bifurcation {
+        let points = || found.sweeps.iter().flat_map(|sweep| &sweep.points);
+        let open =
+            |p: &&BifurcationPoint| p.motion.as_ref().is_ok_and(|m| m.motion.motion == Motion::Aperiodic);
+        let count = points().filter(open).count();
+        if count > 0 {
+            let of = format!("{count} of {} motions are", points().count());
+            warnings.push(too_few_periods("bifurcation", &of));
+        }
+    }
     if let (Some(found), Some(study)) = (&results.bifurcation, &model.studies.bifurcation) {
         for sweep in &found.sweeps {
             let unsettled: Vec<f64> =
@@ -179,6 +205,15 @@ pub(super) fn settling(model: &Model, results: &Results) -> Vec<Warning> {
         }
     }
     warnings
+}
+
+/// `what` is not periodic, and quasi-periodic or chaotic.
+fn too_few_periods(study: &str, what: &str) -> Warning {
+    let text = format!(
+        "study.{study}: {what} not periodic; fewer than 100 recorded periods do not tell quasi-periodic from chaotic motion"
+    );
+    let advice = format!("periods = 200 in [study.{study}], or see the exponent of `lyapunov`");
+    Warning::new(Code::NotSettled, &format!("study.{study}"), text).advise(advice)
 }
 
 fn is_unsettled(point: &BifurcationPoint) -> bool {
