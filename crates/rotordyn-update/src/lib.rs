@@ -240,7 +240,7 @@ fn update_decided(job: &UpdateJob) -> Result<Update, UpdateFailure> {
     if goodness.is_rejected() {
         classes.iter_mut().filter(|c| c.is_fitted()).for_each(|c| *c = IdentifiabilityClass::PoorFit);
     } else if classes.iter().any(|class| class.is_fitted()) {
-        fixed = fixed_influences(job, &at, &state, &fitted_modes, &estimate.errors, &goodness)?;
+        fixed = fixed_influences(job, &at, &state, &fitted_modes, &estimate.errors)?;
         for (class, found) in classes.iter_mut().zip(&mut fixed) {
             if !class.is_fitted() {
                 *found = FixedInfluence::default();
