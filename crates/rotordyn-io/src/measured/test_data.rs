@@ -256,6 +256,7 @@ fn modes_of_identified(found: &ModalIdentification) -> (Vec<Dof>, Vec<TargetMode
             frequency_error: mode.frequency_error,
             damping_error: mode.damping_error,
             shape: shape.to_vec(),
+            shape_error: mode.shape_error,
         });
     }
     (dofs, modes)
