@@ -53,7 +53,7 @@ mod uncertainty;
 mod whirl;
 mod window;
 
-pub use data::{is_force_over_motion, quantity_of};
+pub use data::{frfs_without_unit, is_force_over_motion, quantity_of};
 pub use error::IdentifyError;
 pub use result::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning, Stability};
 pub use settings::{ResidualTerms, Settings};

@@ -12,6 +12,7 @@
 //! | [`parameter`] | free parameters: numbers of the model file, single or grouped |
 //! | [`residual`] | residuals of frequencies, damping and shapes, with exact sensitivities |
 //! | [`frf`] | residuals of FRFs: selected lines and their weights |
+//! | [`frf_scale`] | one factor between all measured and computed FRFs: wrong unit or quantity |
 //! | [`least_squares`] | Levenberg-Marquardt with bounds and priors |
 //! | [`identifiability`] | identifiability, standard errors and correlation of the parameters |
 //! | [`data_kind`] | kinds of the data, and the misfit of each |
@@ -31,6 +32,7 @@ mod document;
 mod error;
 pub mod force_levels;
 pub mod frf;
+pub mod frf_scale;
 pub mod goodness;
 pub mod groups;
 pub mod identifiability;
