@@ -44,6 +44,7 @@ fn measured() -> Target {
         damping_ratio: None,
         frequency_error: 0.0,
         damping_error: 0.0,
+        shape_error: 0.0,
         shape,
     };
     let target = Target { speed: 0.0, sensors, modes: vec![wide.clone(); 6], frfs: None };

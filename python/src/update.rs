@@ -39,7 +39,7 @@ pub fn update(
         let fit = Fit::new(&args, &context, model.title, parameters, read)?;
         fit.pair_warnings(&terminal)?;
         let findings = fit.findings(&context, &args.profile)?;
-        update_findings::warn(&terminal, &fit.parameters, &fit.found, &findings);
+        fit.warn(&terminal, &findings);
         Ok(Analysis::new(Found::Update(Box::new((fit, findings))), &terminal.warnings(), 0))
     })
 }

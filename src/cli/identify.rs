@@ -6,9 +6,7 @@ use std::time::Instant;
 
 use rotordyn::error::Error;
 use rotordyn::identify::operational::OperationalSettings;
-use rotordyn::identify::{
-    ModalIdentification, ResidualTerms, Settings, identify, is_force_over_motion, quantity_of,
-};
+use rotordyn::identify::{ModalIdentification, ResidualTerms, Settings, frfs_without_unit, identify};
 use rotordyn::io::hdf5::open_reader;
 use rotordyn::io::measured::impact_run;
 use rotordyn::io::measured::mapping::{self, Mapping};
@@ -414,21 +412,8 @@ fn quality_warnings(frfs: &FrfMatrix, args: &IdentifyArgs, from_hits: bool, warn
             .into(),
         );
     }
-    let names = frfs.responses.iter().zip(&frfs.units).flat_map(|(response, row)| {
-        let is_unknown = |unit: &str| quantity_of(unit).is_none() && !is_force_over_motion(unit);
-        let unknown = frfs.references.iter().zip(row).filter(move |(_, unit)| is_unknown(unit));
-        unknown.map(move |(reference, _)| format!("{response}/{reference}"))
-    });
-    let mut unknown: Vec<String> = names.collect();
-    if !unknown.is_empty() && args.quantity.is_none() {
-        let (count, all) = (unknown.len(), frfs.responses.len() * frfs.references.len());
-        let more = if count > 4 { ", ..." } else { "" };
-        unknown.truncate(4);
-        warnings.push(format!(
-            "{count} of {all} FRFs have no unit ({}{more}) and are treated as accelerance; give the unit in a mapping, or \
-             --quantity",
-            unknown.join(", ")
-        ));
+    if let Some(text) = frfs_without_unit(frfs).filter(|_| args.quantity.is_none()) {
+        warnings.push(format!("{text}; give the unit in a mapping, or --quantity"));
     }
     if frfs.responses.len() * frfs.references.len() == 1 {
         warnings.push(

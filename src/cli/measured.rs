@@ -9,9 +9,10 @@ use rotordyn::model::Model;
 use rotordyn::signal::record::MeasuredData;
 use rotordyn::units::{self, FREQUENCY, SPEED};
 use rotordyn::update::correlation::Correlation;
+use rotordyn::update::frf_scale::FrfScale;
 use rotordyn::update::state::ModelState;
 use rotordyn::update::target::{Sensor, Target};
-use rotordyn::warning::Code;
+use rotordyn::warning::{Code, Warning};
 
 use super::args::MeasuredArgs;
 use super::failure::Failure;
@@ -206,9 +207,20 @@ pub fn band(target: &Target) -> [f64; 2] {
     [0.8 * all().fold(f64::INFINITY, f64::min), 1.1 * all().fold(0.0, f64::max)]
 }
 
-/// Tables of the frequency response assurance criterion (FRAC) and of the levels of every response and reference, and what
-/// they say of units, signs and points.
-pub fn frf_tables(terminal: &Terminal, found: &Correlation) {
+/// Tables of the FRFs, and what they say of units, signs and points.
+pub fn compare_frfs(terminal: &Terminal, found: &Correlation) {
+    frf_level_tables(terminal, found);
+    let (scale, faults) = found.frf_faults();
+    if let Some(scale) = scale {
+        terminal.warn(&scale_warning(&scale));
+    }
+    for text in faults {
+        terminal.warn_of(Code::FrfLevel, text);
+    }
+}
+
+/// Tables of the frequency response assurance criterion (FRAC) and of the levels of every response and reference.
+pub fn frf_level_tables(terminal: &Terminal, found: &Correlation) {
     let (Some(measured), Some(frac), Some(level)) = (&found.target.frfs, found.frac(), found.frf_level_db())
     else {
         return;
@@ -228,9 +240,11 @@ pub fn frf_tables(terminal: &Terminal, found: &Correlation) {
     table(title, &frac, &|v| if v.is_nan() { "-".into() } else { number(v, 3) });
     let title = "Level of computed over measured FRFs, dB, median over the frequencies";
     table(title, &level, &|v| if v.abs() < MOST_LEVEL_DB { format!("{v:+.1}") } else { "-".into() });
-    for text in found.frf_faults() {
-        terminal.warn_of(Code::FrfLevel, text);
-    }
+}
+
+/// All measured FRFs are the computed ones times a factor or a power of the frequency.
+pub fn scale_warning(scale: &FrfScale) -> Warning {
+    Warning::new(Code::FrfLevel, "", scale.text()).advise(scale.advice())
 }
 
 /// Level beyond which one of two FRFs is zero but for rounding \[dB\].

@@ -67,6 +67,7 @@ mod unbalance_tables;
 pub(crate) mod update;
 pub(crate) mod update_findings;
 pub(crate) mod update_fit;
+mod update_warnings;
 mod validate;
 
 use outcome::{Outcome, finish, print_model_warnings, print_written_files, report};

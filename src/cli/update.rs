@@ -39,7 +39,7 @@ pub fn run(args: &UpdateArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     fit.print(terminal)?;
     let findings = fit.findings(&context, &args.profile)?;
     update_findings::print(terminal, &fit.parameters, &fit.found, &findings);
-    update_findings::warn(terminal, &fit.parameters, &fit.found, &findings);
+    fit.warn(terminal, &findings);
 
     let path = args.write.clone().unwrap_or_else(|| {
         let stem = args.study.model.model.file_stem().unwrap_or_default().to_string_lossy();

@@ -2,18 +2,15 @@
 
 use rotordyn::update::culprits::{self, Culprit, CulpritSearch};
 use rotordyn::update::data_kind::KindFit;
-use rotordyn::update::goodness::{FitQuality, MIN_PROBABILITY};
+use rotordyn::update::goodness::FitQuality;
 use rotordyn::update::groups::{self, Combination};
 use rotordyn::update::parameter::FreeParameter;
 use rotordyn::update::profile::{Profile, profile};
-use rotordyn::update::{Findings, IdentifiabilityClass, Update, UpdateJob};
-use rotordyn::warning::{Code, Warning};
+use rotordyn::update::{Findings, Update, UpdateJob};
 
 use super::failure::Failure;
 use super::terminal::{Terminal, number};
 
-/// Change in standard deviations of the prior above which data and prior are reported as inconsistent.
-const PRIOR_SHIFT_LIMIT: f64 = 3.0;
 /// Culprits that are printed.
 const SHOWN: usize = 3;
 
@@ -88,7 +85,8 @@ pub fn print_fit(terminal: &Terminal, found: &Update) {
     }
 }
 
-fn per_cent(probability: f64) -> String {
+/// A probability in per cent.
+pub fn per_cent(probability: f64) -> String {
     match probability {
         p if p > 0.999 => "above 99.9".into(),
         p if p < 1e-6 => "below 1e-4".into(),
@@ -129,7 +127,7 @@ fn group_table(terminal: &Terminal, parameters: &[FreeParameter], findings: &Fin
 }
 
 /// Relative change of a parameter's value in per cent, for a change of its coordinate.
-fn change_per_cent(parameter: &FreeParameter, from: f64, change: f64) -> f64 {
+pub fn change_per_cent(parameter: &FreeParameter, from: f64, change: f64) -> f64 {
     100.0 * (parameter.value(from + change) / parameter.value(from) - 1.0)
 }
 
@@ -265,134 +263,8 @@ fn profile_table(terminal: &Terminal, parameters: &[FreeParameter], profiles: &[
     terminal.table("Profile likelihood (all other parameters fitted again)", &header, &rows);
 }
 
-/// Warnings of the fit: a model that does not explain the data, correlated parameters, active bounds, no convergence.
-pub fn warn(terminal: &Terminal, parameters: &[FreeParameter], found: &Update, findings: &Findings) {
-    if found.goodness.is_rejected() {
-        terminal.warn(&lack_of_fit(found, findings.culprits.as_ref()));
-    }
-    for group in &findings.groups {
-        let names: Vec<String> = group.members.iter().map(|&j| parameters[j].name.clone()).collect();
-        terminal.warn_of(
-            Code::ModelUpdate,
-            format!(
-                "the data do not separate {}: one combination of them is known to {} %, another only to {} %; free one of \
-                 them alone, or link them with +",
-                listed(&names),
-                number(100.0 * group.determined.error, 2),
-                number(100.0 * group.undetermined.error, 2)
-            ),
-        );
-    }
-    for warning in dependence_warnings(parameters, found) {
-        terminal.warn(&warning);
-    }
-    for (parameter, outcome) in parameters.iter().zip(&found.outcomes) {
-        if outcome.class == IdentifiabilityClass::AtBound {
-            terminal.warn_of(
-                Code::ModelUpdate,
-                format!("{} is at its bound: it may compensate another model error", parameter.name),
-            );
-        }
-        let prior_shift = ((outcome.fitted - parameter.mean) / parameter.deviation).abs();
-        if prior_shift > PRIOR_SHIFT_LIMIT {
-            terminal.warn_of(Code::ModelUpdate, format!(
-                    "{}: the fitted value is {} prior standard deviations away from the prior mean; data and prior are \
-                     inconsistent",
-                    parameter.name,
-                    number(prior_shift, 2)
-                ),
-            );
-        }
-    }
-    if !found.converged {
-        terminal.warn_of(
-            Code::ModelUpdate,
-            "the update did not converge: increase --iterations, or reduce the number of free parameters",
-        );
-    }
-}
-
-/// One warning for every fixed parameter that values depend on.
-fn dependence_warnings(parameters: &[FreeParameter], found: &Update) -> Vec<Warning> {
-    let mut names: Vec<&str> = Vec::new();
-    for (_, _, dependence) in found.dependences(parameters) {
-        if !names.contains(&dependence.on.name.as_str()) {
-            names.push(&dependence.on.name);
-        }
-    }
-    let one = |name: &&str| {
-        let own: Vec<_> = found.dependences(parameters).filter(|(_, _, d)| d.on.name == *name).collect();
-        let values: Vec<String> = own
-            .iter()
-            .map(|(p, o, d)| {
-                let errors = number((d.shift / o.error).abs(), 2);
-                let change = change_per_cent(p, o.x, d.shift);
-                format!("{} by {change:+.1} % ({errors} standard errors)", p.name)
-            })
-            .collect();
-        let dependence = own[0].2;
-        let text = format!(
-            "{name} is not free, but the data would change it by {:+.1} % (chi^2 falls by {}; by chance in {} %) and with \
-             it {}",
-            change_per_cent(&dependence.on, dependence.on.mean, dependence.change),
-            number(dependence.gain, 3),
-            per_cent(dependence.probability),
-            listed(&values)
-        );
-        Warning::new(Code::ModelUpdate, "", text)
-            .advise(format!("free {name} too, or make sure of its value by another measurement"))
-    };
-    names.iter().map(one).collect()
-}
-
-/// The warning of a model that does not explain the data.
-fn lack_of_fit(found: &Update, search: Option<&CulpritSearch>) -> Warning {
-    let goodness = &found.goodness;
-    let all = (
-        "data",
-        [goodness.chi_squared, goodness.degrees_of_freedom],
-        [goodness.probability(), MIN_PROBABILITY],
-    );
-    let (data, [chi_squared, degrees], [probability, limit]) = match goodness.misfit_kind() {
-        Some(fit) if goodness.probability() >= MIN_PROBABILITY => (
-            fit.kind.label(),
-            [fit.chi_squared, fit.degrees_of_freedom],
-            [fit.probability(), goodness.min_kind_probability()],
-        ),
-        _ => all,
-    };
-    let text = format!(
-        "the updated model does not explain the {data}: chi^2 = {} with {} degrees of freedom has a probability of {} % \
-         (at least {} % expected); no parameter is identified, and the standard errors do not cover the error of the model",
-        number(chi_squared, 3),
-        number(degrees, 3),
-        per_cent(probability),
-        number(100.0 * limit, 2)
-    );
-    let explaining: Vec<String> = search
-        .iter()
-        .flat_map(|search| search.explaining().take(SHOWN))
-        .map(|c| {
-            format!(
-                "{} ({:+.1} %)",
-                c.parameter.name,
-                change_per_cent(&c.parameter, c.parameter.mean, c.x - c.parameter.mean)
-            )
-        })
-        .collect();
-    let advice = if explaining.is_empty() {
-        "no single parameter of the model explains it: check the mode pairs, the points, directions, signs and units of the \
-         mapping, and what the model leaves out"
-            .into()
-    } else {
-        let or = explaining.join(" or ");
-        format!("free {or} besides, which would explain it, or check the mode pairs and the mapping")
-    };
-    Warning::new(Code::LackOfFit, "", text).advise(advice)
-}
-
 /// "a, b and c".
-fn listed(names: &[String]) -> String {
+pub fn listed(names: &[String]) -> String {
     match names.split_last() {
         Some((last, [])) => last.clone(),
         Some((last, others)) => format!("{} and {last}", others.join(", ")),

@@ -12,6 +12,7 @@ use rotordyn::linalg::Complex64;
 use rotordyn::model::{self, Model, Options};
 use rotordyn::update::correlation::Correlation;
 use rotordyn::update::frf::{FrfFitting, rms_difference_db};
+use rotordyn::update::frf_scale::{FrfScale, common_scale};
 use rotordyn::update::parameter::{FreeParameter, ModelNumber};
 use rotordyn::update::residual::Fitting;
 use rotordyn::update::{
@@ -23,7 +24,7 @@ use super::failure::Failure;
 use super::machine::ModelSource;
 use super::measured::{self, band};
 use super::terminal::{Terminal, number};
-use super::{ehl_films, free_parameters, update_findings};
+use super::{ehl_films, free_parameters, update_findings, update_warnings};
 
 /// Where models with other values come from.
 pub struct UpdateContext<'a> {
@@ -126,7 +127,18 @@ impl Fit {
             fixed: &self.fixed,
         };
         let terminal = context.terminal;
-        terminal.unless_stopped(update_findings::findings(terminal, &job, &self.found, profile))
+        let found = update_findings::findings(terminal, &job, &self.found, profile);
+        Ok(Findings { frf_scale: self.frf_scale(), ..terminal.unless_stopped(found)? })
+    }
+
+    /// Common scale of the FRFs, if they are fitted. The model before has not taken it into its parameters yet; that after
+    /// may be nearer.
+    fn frf_scale(&self) -> Option<FrfScale> {
+        let band = self.fitting.frf?.band;
+        self.correlations().iter().find_map(|stage| {
+            let (measured, computed) = stage.measured_and_computed()?;
+            common_scale(measured, computed, band)
+        })
     }
 
     /// The measurement beside the model before and after.
@@ -196,9 +208,19 @@ impl Fit {
             .map_err(|e| Failure::Input(format!("{}: {e}", origin.name)))
     }
 
-    /// Warns about pairs of modes that may be none.
+    /// Warns about pairs of modes that may be none, and about fitted shapes of low weight.
     pub fn pair_warnings(&self, terminal: &Terminal) -> Result<(), Failure> {
-        measured::pair_warnings(terminal, &self.read.target, &self.found.after)
+        measured::pair_warnings(terminal, &self.read.target, &self.found.after)?;
+        if let Some(least) = self.fitting.shape {
+            let modes = self.found.fitted_modes.iter().map(|&k| &self.read.target.modes[k]);
+            update_warnings::warn_of_uncertain_shapes(terminal, modes, least);
+        }
+        Ok(())
+    }
+
+    /// Warnings of the fit and of what was found of it.
+    pub fn warn(&self, terminal: &Terminal, findings: &Findings) {
+        update_warnings::warn(terminal, &self.parameters, &self.read.target, &self.found, findings);
     }
 
     /// Tables of the fit, and warnings about its pairs of modes.
@@ -211,7 +233,7 @@ impl Fit {
         self.pair_warnings(terminal)?;
         let stages = self.correlations();
         if let Some([before, now]) = self.frf_difference_db(&stages) {
-            measured::frf_tables(terminal, &stages[1]);
+            measured::frf_level_tables(terminal, &stages[1]);
             terminal.print(&format!(
                 "\nFRF difference {} dB after the update, {} dB before (RMS over the fitted frequency lines)",
                 number(now, 2),

@@ -121,7 +121,7 @@ fn compare_structures(
         measured::pair_warnings(terminal, &read.target, state)?;
         let correlation = Correlation::new(&read.target, state)?;
         measured::standstill_warning(terminal, &correlation);
-        measured::frf_tables(terminal, &correlation);
+        measured::compare_frfs(terminal, &correlation);
         let prefix = match found.len() {
             1 => "validation".to_string(),
             _ => format!("validation_{}", stem(path)),

@@ -3,6 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
+use rotordyn::io::measured;
+use rotordyn::signal::record::{Kind, MeasuredData, Values};
+
 use crate::{json_of, output_of, rotordyn};
 
 const RIG: &str = "models/overhung_rig.toml";
@@ -65,6 +68,38 @@ fn housing_stiffness_is_recovered_by_every_frf_fit() {
             distance_db("after")
         );
     }
+}
+
+/// FRFs in g that are labelled m/s^2 have all one factor; without a unit a warning says what they are taken for.
+#[test]
+fn scale_and_missing_units_of_frfs_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scaled = measured::read(&TEST.1).unwrap();
+    for record in scaled.records.iter_mut().filter(|record| record.kind == Kind::Frf) {
+        let Values::Complex(values) = &mut record.values else { panic!("{}", record.name) };
+        values.iter_mut().for_each(|h| *h /= 9.806_65);
+    }
+    let warnings = |data: &MeasuredData, name: &str| {
+        let file = folder.path().join(name);
+        measured::write(&file, data).unwrap();
+        let mut command = rotordyn();
+        command.args(["update", RIG, "--free", "housing.*.k_x,housing.*.k_y", "--band", "5 .. 300 Hz"]);
+        command.args(["--no-figures", "--fit", "frequency,frf", "--measured"]).arg(file);
+        let document = json_of(command.arg("--out").arg(folder.path()));
+        (document["frf_scale"].as_f64(), document["warnings"].to_string())
+    };
+    let (scale, text) = warnings(&scaled, "scaled.uff");
+    assert!((scale.unwrap() * 9.806_65 - 1.0).abs() < 0.05, "{scale:?}");
+    for part in
+        ["all measured FRFs are 0.1", "in g that are read as m/s^2", "mend the scale of the FRFs first"]
+    {
+        assert!(text.contains(part), "{part} is not in {text}");
+    }
+    let mut plain = measured::read(&TEST.1).unwrap();
+    plain.records.iter_mut().for_each(|record| record.unit.clear());
+    let (scale, text) = warnings(&plain, "plain.npz");
+    assert!(scale.is_none() && text.contains("have no unit"), "{scale:?} {text}");
+    assert!(text.contains("treated as accelerance; give the unit"), "{text}");
 }
 
 #[test]

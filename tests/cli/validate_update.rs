@@ -179,6 +179,47 @@ fn culprit_of_a_misfit_is_named_with_its_value() {
     }
 }
 
+/// From housings thousands of times too soft no fit finds the data: the start is named as the cause, and nothing is said of a
+/// contradiction between data and prior.
+#[test]
+fn start_far_from_the_data_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = rotordyn();
+    command.args(["update", RIG, "--free", "housing.A.k_x,housing.B.k_x", "--no-figures"]);
+    command.args([
+        "--set",
+        "housing.A.k_x=2e3 N/m",
+        "--set",
+        "housing.B.k_x=2e3 N/m",
+        "--band",
+        "5 .. 100 Hz",
+    ]);
+    let document = json_of(command.arg("--measured").arg(truth()).arg("--out").arg(folder.path()));
+    assert_eq!(document["parameters"][0]["identifiability"], "not identifiable", "{document}");
+    let warnings = document["warnings"].to_string();
+    for part in
+        ["the start is far from the data", " Hz with none", "start housing.A.k_x and housing.B.k_x nearer"]
+    {
+        assert!(warnings.contains(part), "{part} is not in {warnings}");
+    }
+    assert!(!warnings.contains("data and prior are inconsistent"), "{warnings}");
+}
+
+/// A bound that excludes the stiffness of the housings: widening it is proposed, and nothing else.
+#[test]
+fn bound_that_excludes_the_fit_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let free = "housing.*.k_x,housing.*.k_y";
+    let bounds = ["--no-figures", "--bounds", "housing.*.k_x=5e6 .. 7e6 N/m"];
+    let document = update_of(folder.path(), free, &bounds);
+    let released = &document["released_bounds"][0];
+    assert!(released["name"] == "housing.*.k_x" && released["explains"] == true, "{released}");
+    assert!((released["value"].as_f64().unwrap() / 4.2e6 - 1.0).abs() < 0.01, "{released}");
+    let warnings = document["warnings"].to_string();
+    assert!(warnings.contains("widen the bounds of housing.*.k_x, which becomes 4.2"), "{warnings}");
+    assert!(!warnings.contains("besides"), "{warnings}");
+}
+
 /// Young's modulus and the diameter of the shaft absorb a pulley 3 % lighter so well that chi^2 is smaller than its degrees
 /// of freedom.
 #[test]

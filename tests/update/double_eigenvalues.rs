@@ -68,7 +68,14 @@ fn state(model: Model, modes: Vec<TargetMode>) -> (ModelState, Target) {
 }
 
 fn mode(frequency_hz: f64, shape: Vec<Complex64>) -> TargetMode {
-    TargetMode { frequency_hz, damping_ratio: None, frequency_error: 0.0, damping_error: 0.0, shape }
+    TargetMode {
+        frequency_hz,
+        damping_ratio: None,
+        frequency_error: 0.0,
+        damping_error: 0.0,
+        shape,
+        shape_error: 0.0,
+    }
 }
 
 /// Modes below 300 Hz, both shapes of each pair rotated by an angle that differs between pairs, with 1 % of noise.

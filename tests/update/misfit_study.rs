@@ -155,6 +155,7 @@ impl Machine {
             damping_ratio: None,
             frequency_error: 0.0,
             damping_error: 0.0,
+            shape_error: 0.0,
             shape,
         };
         let any = one(self.top_hz, vec![Complex64::new(1.0, 0.0); sensors.len()]);

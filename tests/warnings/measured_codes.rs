@@ -18,6 +18,27 @@ pub const CASES: &[Case] = &[
         store_modes(folder.path(), "soft", "material.steel.young=130 GPa");
         ["own", "soft"].map(|file| validate(folder.path(), &[file]))
     }),
+    (Code::FrfLevel, || {
+        let folder = two_discs();
+        let arguments =
+            ["frf", "machine.toml", "--no-figures", "--quantity", "accelerance", "--noise", "60 dB"];
+        assert!(program::codes(folder.path(), &[&arguments[..], &["--out", "test"]].concat(), 0).is_empty());
+        let plain = measured::read(&folder.path().join("test/frf_noisy.uff")).unwrap();
+        // In g, with the unit of before.
+        let in_g = |record: Record| match (record.kind, &record.values) {
+            (Kind::Frf, Values::Complex(h)) => {
+                let values = Values::Complex(h.iter().map(|h| h / 9.806_65).collect());
+                Record { values, ..record }
+            }
+            _ => record,
+        };
+        write(folder.path(), "plain.uff", plain.records.clone());
+        write(folder.path(), "spoiled.uff", plain.records.into_iter().map(in_g).collect());
+        ["plain.uff", "spoiled.uff"].map(|file| {
+            let arguments = ["validate", "machine.toml", "--measured", file];
+            program::codes(folder.path(), &[&arguments[..], &OUT].concat(), 0)
+        })
+    }),
     (Code::MeasuredData, || {
         let folder = two_discs();
         store_modes(folder.path(), "own", "shaft.element_length=15 mm");

@@ -333,6 +333,24 @@ pub(super) fn derivatives(quantity: Quantity) -> i32 {
     }
 }
 
+/// "2 of 2 FRFs have no unit (...) and are treated as accelerance"; `None` if all have one.
+pub fn frfs_without_unit(frfs: &FrfMatrix) -> Option<String> {
+    const NAMED: usize = 4;
+    let is_unknown = |unit: &str| quantity_of(unit).is_none() && !is_force_over_motion(unit);
+    let mut unknown = Vec::new();
+    for (response, row) in frfs.responses.iter().zip(&frfs.units) {
+        let own = frfs.references.iter().zip(row).filter(|(_, unit)| is_unknown(unit));
+        unknown.extend(own.map(|(reference, _)| format!("{response}/{reference}")));
+    }
+    let (count, all) = (unknown.len(), frfs.responses.len() * frfs.references.len());
+    let more = if count > NAMED { ", ..." } else { "" };
+    unknown.truncate(NAMED);
+    (count > 0).then(|| {
+        let names = unknown.join(", ");
+        format!("{count} of {all} FRFs have no unit ({names}{more}) and are treated as accelerance")
+    })
+}
+
 /// Quantity of an FRF by its SI unit: "(m/s^2)/N" is an acceleration (accelerance), "m/N" a displacement
 /// (receptance).
 pub fn quantity_of(unit: &str) -> Option<Quantity> {

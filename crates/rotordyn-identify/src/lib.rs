@@ -14,6 +14,7 @@
 //! | `two_modes` | two close poles: two modes, or one mode that differs between the FRFs |
 //! | `window`, `principal_outputs` | FRFs in a part of the band, on few directions, for cheap fits |
 //! | `uncertainty`, `misfit`, `nonlinearity` | standard errors of poles: noise (jackknife) and error of the modal model |
+//! | `shape_errors` | standard errors of shapes |
 //! | `one_band`, `bands` | modes of one band; a record that holds too much for one is split |
 //! | [`mac`](mod@mac) | MAC, FRAC, FDAC, phase collinearity |
 //! | [`sdof`] | single-degree-of-freedom (SDOF) circle and peak fit of one mode |
@@ -45,13 +46,14 @@ mod result;
 mod reweight;
 pub mod sdof;
 mod settings;
+mod shape_errors;
 mod stabilisation;
 mod two_modes;
 mod uncertainty;
 pub mod whirl;
 mod window;
 
-pub use data::{is_force_over_motion, quantity_of};
+pub use data::{frfs_without_unit, is_force_over_motion, quantity_of};
 pub use error::IdentifyError;
 pub use result::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning, Stability};
 pub use settings::{ResidualTerms, Settings};

@@ -15,6 +15,7 @@ use super::pairs::{self, Split};
 use super::plscf::{Pole, StablePole, damping_ratio};
 use super::refine::{FitPoint, MIN_LOCAL_GAIN, Problem, significance};
 use super::reweight::reweight;
+use super::shape_errors::shape_variances;
 use super::two_modes::are_two;
 use super::uncertainty::{PoleCovariance, covariance, standard_errors, white_noise_covariance};
 use super::{DroppedPole, QualityWarning, Settings};
@@ -25,6 +26,8 @@ pub(super) struct SelectedModes {
     pub poles: Vec<Pole>,
     pub fit: Fit,
     pub covariance: Vec<PoleCovariance>,
+    /// E|δψ|² `[mode][output]`.
+    pub shape_variances: Vec<Vec<f64>>,
     pub significance: Vec<f64>,
     pub quality_warnings: Vec<Vec<QualityWarning>>,
 }
@@ -98,10 +101,12 @@ pub(super) fn select_modes(
         covariance[m][1] += pull.im * pull.im;
     }
     let fit = problem.fit(&at);
+    let shape_variances = shape_variances(&problem, &at, &covariance);
     Some(SelectedModes {
         poles: at.poles,
         fit,
         covariance,
+        shape_variances,
         significance: settled.significance,
         quality_warnings,
     })

@@ -18,6 +18,9 @@ const LOWEST_ORDER: usize = 2;
 /// Phase collinearity below which a mode without whirl is doubtful, and the least number of points for it.
 const MIN_COLLINEARITY: f64 = 0.7;
 const MIN_COLLINEAR_POINTS: usize = 3;
+/// Standard error of a shape, as √(1 − MAC), above which a low phase collinearity is taken for an error of the shape; below, for
+/// a property of the mode.
+const MIN_SHAPE_ERROR: f64 = 0.02;
 /// Whirl measure below which an orbit counts as a straight line.
 const STRAIGHT: f64 = 0.1;
 
@@ -128,6 +131,9 @@ fn assemble_result(
                 found.fit.shapes[m].iter().zip(&data.output_scale).map(|(v, a)| v * *a * before[k]).collect();
             let (frequency_error, damping_error) =
                 uncertainty::standard_errors(pole.value, found.covariance[m]);
+            let mut shape_error = shape_error(&large, |o| {
+                found.shape_variances[m][o] * (data.output_scale[o] * before[k].norm()).powi(2)
+            });
             let collinearity = mac::phase_collinearity(&large);
             let points = large.len();
             let (shape, participation) = if data.swapped { (small, large) } else { (large, small) };
@@ -137,6 +143,9 @@ fn assemble_result(
             let straight = whirl.is_none_or(|w| w.abs() < STRAIGHT);
             if straight && points >= MIN_COLLINEAR_POINTS && collinearity < MIN_COLLINEARITY {
                 quality_warnings.push(QualityWarning::LowCollinearity);
+                if shape_error > MIN_SHAPE_ERROR {
+                    shape_error = shape_error.max(out_of_phase_error(collinearity));
+                }
             }
             Mode {
                 pole: pole.value + settings.added_decay,
@@ -144,6 +153,7 @@ fn assemble_result(
                 participation,
                 frequency_error,
                 damping_error,
+                shape_error,
                 collinearity,
                 whirl,
                 significance: found.significance[m],
@@ -178,5 +188,37 @@ fn assemble_result(
         orders,
         dropped,
         bands: vec![data.band()],
+    }
+}
+
+/// Standard deviation of √(1 − MAC) of a shape by the errors of its points, of E|δψ|² each; the part along the shape, one of n
+/// points, does not change the MAC.
+fn shape_error(shape: &[Complex64], variance: impl Fn(usize) -> f64) -> f64 {
+    let size: f64 = shape.iter().map(|v| v.norm_sqr()).sum();
+    let error: f64 = (0..shape.len()).map(variance).sum();
+    let across = 1.0 - 1.0 / shape.len() as f64;
+    if size > 0.0 { (across * error / size).min(1.0).sqrt() } else { 0.0 }
+}
+
+/// √(1 − √MPC), the error of a shape as √(1 − MAC) if its out-of-phase part is error, which is then as large in phase: the
+/// out-of-phase part is (1 − √MPC)/2 of its square.
+fn out_of_phase_error(collinearity: f64) -> f64 {
+    (1.0 - collinearity.sqrt()).max(0.0).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn error_of_a_shape_by_its_points_and_by_its_out_of_phase_part() {
+        // In phase 1, out of phase 0.5: 0.2 of the square is out of phase, and twice that is error.
+        let shape = [Complex64::new(1.0, 0.0), Complex64::new(0.0, 0.5)];
+        let error = out_of_phase_error(mac::phase_collinearity(&shape));
+        assert!((error - 0.4f64.sqrt()).abs() < 1e-12, "{error}");
+        // Half of the error 0.1² at two points is across the shape.
+        let error = shape_error(&shape, |_| 0.01);
+        assert!((error - (0.5 * 0.02 / 1.25f64).sqrt()).abs() < 1e-12, "{error}");
+        assert_eq!(shape_error(&shape, |_| f64::INFINITY), 1.0);
     }
 }

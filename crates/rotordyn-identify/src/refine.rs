@@ -164,6 +164,11 @@ impl<'a> Problem<'a> {
         self.data
     }
 
+    /// Derivatives of the FRFs by poles and participations, as of [`Basis::derivative_columns`].
+    pub fn derivative_columns(&self, poles: &[Pole]) -> (DMatrix<f64>, Vec<FitParameter>) {
+        self.basis.derivative_columns(poles)
+    }
+
     /// Sum of squares of the FRFs.
     pub fn energy(&self) -> f64 {
         self.y.norm_squared()

@@ -20,6 +20,9 @@ pub struct Mode {
     pub frequency_error: f64,
     /// Standard error of the damping ratio.
     pub damping_error: f64,
+    /// Standard deviation of √(1 − MAC) of the vector over the side with more DOFs, by its error; at most 1.
+    /// Of an uncertain shape of low phase collinearity the out-of-phase part counts as error.
+    pub shape_error: f64,
     /// Modal phase collinearity (MPC) of the side with more DOFs, 1 for a real mode.
     pub collinearity: f64,
     /// Whirl at the points measured along x and y: 1 forward circular (x towards y), 0 planar, −1 backward

@@ -2,6 +2,7 @@
 
 use super::UpdateFailure;
 use super::frf_levels::FrfLevels;
+use super::frf_scale::{FrfScale, common_scale};
 use super::state::ModelState;
 use super::target::{Sensor, Target, TargetFrfs, TargetMode};
 use rotordyn_core::analysis::modal::Mode;
@@ -55,20 +56,26 @@ impl<'a> Correlation<'a> {
         Some(levels.into_iter().map(decibel).collect())
     }
 
-    /// Wrong units, signs and points that the FRFs show beside the computed ones, in words.
-    pub fn frf_faults(&self) -> Vec<String> {
-        let (Some(levels), Some(measured)) = (self.frf_levels(), &self.target.frfs) else {
-            return Vec::new();
+    /// A factor or power of ω common to all FRFs, and faults of single channels in words.
+    pub fn frf_faults(&self) -> (Option<FrfScale>, Vec<String>) {
+        let (Some(levels), Some((measured, computed))) = (self.frf_levels(), self.measured_and_computed())
+        else {
+            return (None, Vec::new());
         };
+        let scale = common_scale(measured, computed, [0.0, f64::INFINITY]);
+        if scale.is_some_and(|scale| scale.power != 0) {
+            return (scale, Vec::new());
+        }
         let model = &self.state.linearised.model;
         let names = |of: &[Sensor]| of.iter().map(|s| s.name(model)).collect::<Vec<_>>();
         let (responses, references) = (names(&measured.responses), names(&measured.references));
-        levels.faults().iter().map(|fault| fault.text(&responses, &references)).collect()
+        let faults = levels.faults(scale.map_or(1.0, |scale| scale.ratio.recip()));
+        (scale, faults.iter().map(|fault| fault.text(&responses, &references)).collect())
     }
 
     fn frf_levels(&self) -> Option<FrfLevels<'_>> {
         let (measured, computed) = self.measured_and_computed()?;
-        Some(FrfLevels::new(&measured.frequencies, &measured.values, computed))
+        Some(FrfLevels::new(&measured.values, computed))
     }
 
     /// Whether the measured shapes whirl, two modes of them against each other, while the model's do not: a rotating shaft

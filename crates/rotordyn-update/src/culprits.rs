@@ -1,6 +1,7 @@
 //! Culprits of a misfit: parameters that are not free and would explain it.
 //!
 //! Each candidate is tried once by its score test (`score_test.rs`); the best are fitted together with the free parameters.
+//! Free parameters that ended at a bound are fitted without it first.
 
 use rayon::prelude::*;
 
@@ -11,7 +12,7 @@ use super::least_squares::Solution;
 use super::parameter::{FreeParameter, prior};
 pub use super::score_test::MAX_CANDIDATES;
 use super::score_test::{MIN_GAIN, Point, Score};
-use super::{Update, UpdateFailure};
+use super::{IdentifiabilityClass, Update, UpdateFailure};
 
 /// Candidates fitted in earnest: those of the largest predicted gains.
 const MAX_REFITS: usize = 8;
@@ -37,9 +38,24 @@ pub struct Culprit {
     pub alike: Vec<String>,
 }
 
+/// Free parameters that ended at a bound, fitted without their bounds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReleasedBounds {
+    /// Which of the free parameters.
+    pub parameters: Vec<usize>,
+    /// Coordinates of all free parameters then.
+    pub x: Vec<f64>,
+    /// Decrease of χ².
+    pub gain: f64,
+    /// χ² then.
+    pub goodness: GoodnessOfFit,
+}
+
 /// Candidates tried for a misfit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CulpritSearch {
+    /// If bounds keep free parameters from a better fit.
+    pub released: Option<ReleasedBounds>,
     /// Number of candidates, and of those that change the data.
     pub candidates: usize,
     pub with_influence: usize,
@@ -82,6 +98,7 @@ pub fn search(job: &UpdateJob, found: &Update) -> Result<CulpritSearch, UpdateFa
         let start = Point { parameters: job.parameters.to_vec(), prior: own, x: found.x() };
         let first = start.ranking(job, &found.fitted_modes, candidates, MAX_REFITS)?;
         let mut out = CulpritSearch {
+            released: start.without_active_bounds(job, found),
             candidates: candidates.len(),
             with_influence: first.with_influence,
             culprits: first.ranked.iter().map(|(culprit, _)| culprit.clone()).collect(),
@@ -147,6 +164,24 @@ impl Point {
         ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
         let ranked = ranked.into_iter().map(|(_, culprit, point)| (culprit, point)).collect();
         Ok(Ranking { with_influence: scores.all.len(), ranked })
+    }
+
+    /// Fit without the bounds at which free parameters ended; `None` without such bounds, a solution or a gain.
+    fn without_active_bounds(&self, job: &UpdateJob, found: &Update) -> Option<ReleasedBounds> {
+        let at_bound = |&j: &usize| found.outcomes[j].class == IdentifiabilityClass::AtBound;
+        let parameters: Vec<usize> = (0..self.x.len()).filter(at_bound).collect();
+        if parameters.is_empty() {
+            return None;
+        }
+        let mut prior = self.prior.clone();
+        for &j in &parameters {
+            (prior.lower[j], prior.upper[j]) = (f64::NEG_INFINITY, f64::INFINITY);
+        }
+        let solution = fit(&self.job(job), &prior, &self.x, &found.fitted_modes).ok()?;
+        let point = Point { parameters: self.parameters.clone(), prior, x: solution.x };
+        let goodness = GoodnessOfFit::new(&solution.evaluation, &point.prior, &point.movable());
+        let gain = found.goodness.chi_squared - goodness.chi_squared;
+        (gain >= MIN_GAIN).then_some(ReleasedBounds { parameters, x: point.x, gain, goodness })
     }
 
     /// Fits a candidate together with the free parameters; `before`: χ² and objective without it. With the decrease of the

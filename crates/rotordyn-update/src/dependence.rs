@@ -11,7 +11,6 @@
 
 use super::UpdateFailure;
 use super::chi_squared::upper_probability;
-use super::goodness::{FitQuality, GoodnessOfFit};
 use super::job::UpdateJob;
 use super::parameter::FreeParameter;
 use super::score_test::{MIN_GAIN, Point, Score, Scores};
@@ -75,8 +74,8 @@ pub struct FixedInfluence {
 /// chance) and move the value by more than s. It is inseparable from one of standard error σ, which it follows by f for a
 /// unit change, if √(s² + (σ f)²) > 10 s, or > 3 s if another value is inseparable from that one.
 ///
-/// `errors`: s; `state`: the model at the solution. Where the stated deviations of the data are too large, their scale is
-/// taken from the misfit: the likelihood ratio is then ν ln(χ²/(χ² − gain)).
+/// `errors`: s; `state`: the model at the solution. The fall of χ² is that of the data alone, in their stated deviations: a
+/// fit closer than these says nothing of smaller deviations, as small errors of a measurement are rarely noise.
 ///
 /// # Errors
 /// The model cannot be evaluated at the solution.
@@ -86,7 +85,6 @@ pub(crate) fn fixed_influences(
     state: &ModelState,
     modes: &[usize],
     errors: &[f64],
-    goodness: &GoodnessOfFit,
 ) -> Result<Vec<FixedInfluence>, UpdateFailure> {
     if job.fixed.is_empty() {
         return Ok(vec![FixedInfluence::default(); errors.len()]);
@@ -96,7 +94,7 @@ pub(crate) fn fixed_influences(
     let absorbed = |score: &Score| (0..errors.len()).any(|j| growth(score, j) > MIN_GROWTH);
     let absorbed: Vec<&Score> = scores.all.iter().filter(|score| absorbed(score)).collect();
     let of_value = |(j, &error): (usize, &f64)| FixedInfluence {
-        depends_on: strongest(&scores, job.fixed, j, error, goodness),
+        depends_on: strongest(&scores, job.fixed, j, error),
         inseparable_from: absorbed
             .iter()
             .map(|score| (growth(score, j), score))
@@ -112,27 +110,14 @@ pub(crate) fn fixed_influences(
 }
 
 /// The parameter of the largest gain among those that value j depends on.
-fn strongest(
-    scores: &Scores,
-    fixed: &[FreeParameter],
-    j: usize,
-    error: f64,
-    goodness: &GoodnessOfFit,
-) -> Option<Dependence> {
-    let ratio = |gain: f64| match goodness.quality() {
-        FitQuality::DeviationsTooLarge => {
-            let left = (1.0 - gain / goodness.chi_squared).max(f64::EPSILON);
-            -goodness.degrees_of_freedom * left.ln()
-        }
-        _ => gain,
-    };
+fn strongest(scores: &Scores, fixed: &[FreeParameter], j: usize, error: f64) -> Option<Dependence> {
     let strong =
-        scores.all.iter().filter(|s| ratio(s.gain) >= MIN_GAIN && s.shift(j).abs() > MIN_SHIFT * error);
-    let best = strong.max_by(|a, b| a.gain.total_cmp(&b.gain))?;
+        scores.all.iter().filter(|s| s.data_gain >= MIN_GAIN && s.shift(j).abs() > MIN_SHIFT * error);
+    let best = strong.max_by(|a, b| a.data_gain.total_cmp(&b.data_gain))?;
     Some(Dependence {
         on: fixed[best.candidate].clone(),
-        gain: best.gain,
-        probability: upper_probability(ratio(best.gain), 1.0),
+        gain: best.data_gain,
+        probability: upper_probability(best.data_gain, 1.0),
         change: best.change,
         shift: best.shift(j),
     })

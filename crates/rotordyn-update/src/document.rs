@@ -1,9 +1,10 @@
 //! What is written of a model update to files.
 
 use super::correlation::Correlation;
-use super::culprits::{Culprit, CulpritSearch};
+use super::culprits::{Culprit, CulpritSearch, ReleasedBounds};
 use super::data_kind::KindFit;
 use super::dependence::{Dependence, Inseparable};
+use super::frf_scale::FrfScale;
 use super::goodness::FitQuality;
 use super::groups::{Combination, Group};
 use super::parameter::FreeParameter;
@@ -18,6 +19,8 @@ pub struct Findings {
     /// If the model does not explain the data.
     pub culprits: Option<CulpritSearch>,
     pub profiles: Vec<Profile>,
+    /// If all measured FRFs are the computed ones times one factor.
+    pub frf_scale: Option<FrfScale>,
 }
 
 impl Update {
@@ -58,8 +61,15 @@ impl Update {
             .integer(of_parameters("iterations"), self.iterations.len() - 1)
             .optional(in_json("frf_db_before"), "dB", frf_difference_db.map(|[before, _]| before))
             .optional(in_json("frf_db_after"), "dB", frf_difference_db.map(|[_, after]| after))
+            .and_if(more.frf_scale, |document, scale| {
+                document.number("frf_scale", "1", scale.ratio).number(
+                    "frf_scale_power",
+                    "1",
+                    scale.power.into(),
+                )
+            })
             .and(groups_document(&more.groups, parameters, &of_parameters))
-            .and(culprits_document(more.culprits.as_ref()))
+            .and(culprits_document(more.culprits.as_ref(), parameters))
             .and(profiles_document(&more.profiles, parameters, &of_parameters))
             .group("before", before.document())
             .group("after", after.document())
@@ -89,13 +99,33 @@ fn groups_document<'a>(
     Document::new().groups(place("groups"), "name", groups.iter().enumerate().map(one))
 }
 
-fn culprits_document<'a>(found: Option<&CulpritSearch>) -> Document<'a> {
+fn culprits_document<'a>(found: Option<&CulpritSearch>, parameters: &[FreeParameter]) -> Document<'a> {
     let Some(found) = found else { return Document::new() };
     Document::new()
+        .and_if(found.released.as_ref(), |document, released| {
+            let row = |&j: &usize| (&parameters[j], released.x[j], released);
+            document.table(
+                "released_bounds",
+                released_rows(&released.parameters.iter().map(row).collect::<Vec<_>>()),
+            )
+        })
         .table("culprits", culprit_rows(&found.culprits))
         .table("culprits_together", culprit_rows(&found.together))
         .integer("culprit_candidates", found.candidates)
         .integer("culprit_candidates_with_influence", found.with_influence)
+}
+
+/// A free parameter without its bound, with its coordinate then.
+type Released<'r> = (&'r FreeParameter, f64, &'r ReleasedBounds);
+
+fn released_rows<'a, 'r>(rows: &'r [Released<'r>]) -> Rows<'a, 'r, Released<'r>> {
+    let unit = "in the parameter's unit";
+    Rows::of(rows)
+        .text("name", |(p, _, _)| &p.name)
+        .number("value", unit, |(p, x, _)| p.value(*x))
+        .number("chi_squared_gain", "1", |(_, _, r)| r.gain)
+        .number("chi_squared", "1", |(_, _, r)| r.goodness.chi_squared)
+        .flag("explains", |(_, _, r)| !r.goodness.is_rejected())
 }
 
 fn culprit_rows<'a, 'r>(rows: &'r [Culprit]) -> Rows<'a, 'r, Culprit> {

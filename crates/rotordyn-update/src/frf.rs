@@ -143,7 +143,8 @@ pub(super) fn data_count(measured: &TargetFrfs, fitting: &FrfFitting) -> usize {
     lines.iter().map(of).sum::<usize>() * if fitting.complex { 2 } else { 1 }
 }
 
-/// RMS of 20 log(|H_computed|/|H_measured|) \[dB\] over the fitted lines; `computed` contains all lines.
+/// RMS of 20 log(|H_computed|/|H_measured|) \[dB\] over the fitted lines; `computed` contains all lines. FRFs that are zero
+/// in the model, of directions that it does not couple, have no level and are left out.
 pub fn rms_difference_db(
     measured: &TargetFrfs,
     computed: &[Vec<Vec<Complex64>>],
@@ -151,7 +152,8 @@ pub fn rms_difference_db(
 ) -> f64 {
     let lines = selected_lines(measured, fitting.band);
     let (mut sum, mut count) = (0.0, 0);
-    for (r, e, &line) in frf_indices(measured).flat_map(|(r, e)| lines.iter().map(move |line| (r, e, line))) {
+    let coupled = frf_indices(measured).filter(|&(r, e)| is_coupled(computed, r, e));
+    for (r, e, &line) in coupled.flat_map(|(r, e)| lines.iter().map(move |line| (r, e, line))) {
         if is_usable_line(measured, r, e, line) {
             let a = CROSS_AXIS_FLOOR * largest_response(measured, r, e, line);
             let apart = LineResidual::new(computed[r][e][line], measured.values[r][e][line], a).magnitude();
@@ -162,8 +164,15 @@ pub fn rms_difference_db(
     (sum / f64::from(count.max(1))).sqrt()
 }
 
+/// Whether a computed FRF is more than round-off of the largest one under the same force.
+pub(super) fn is_coupled(computed: &[Vec<Vec<Complex64>>], r: usize, e: usize) -> bool {
+    const ROUND_OFF: f64 = 1e-9;
+    let largest = |r: usize| computed[r][e].iter().map(|h| h.norm()).fold(0.0, f64::max);
+    largest(r) > ROUND_OFF * (0..computed.len()).map(largest).fold(0.0, f64::max)
+}
+
 /// Every response with every reference.
-fn frf_indices(measured: &TargetFrfs) -> impl Iterator<Item = (usize, usize)> + use<> {
+pub(super) fn frf_indices(measured: &TargetFrfs) -> impl Iterator<Item = (usize, usize)> + use<> {
     let references = measured.references.len();
     (0..measured.responses.len()).flat_map(move |r| (0..references).map(move |e| (r, e)))
 }
@@ -196,7 +205,7 @@ fn computed(
 }
 
 /// Whether a line of an FRF is usable: nonzero and of sufficient coherence.
-fn is_usable_line(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> bool {
+pub(super) fn is_usable_line(measured: &TargetFrfs, r: usize, e: usize, line: usize) -> bool {
     let clear = measured.coherence.as_ref().is_none_or(|c| c[r][e][line] >= MIN_COHERENCE);
     clear && measured.values[r][e][line].norm_sqr() > 0.0
 }

@@ -1,8 +1,7 @@
-//! Levels and signs of measured FRFs beside the computed ones: wrong units, reversed, exchanged and dead sensors.
+//! Levels and signs of measured FRFs beside the computed ones: single channels with another factor, reversed, exchanged and dead
+//! ones.
 //!
-//! FRAC is 1 for FRFs that differ by a factor, whatever the factor.
-
-use std::f64::consts::TAU;
+//! FRAC is 1 for FRFs that differ by a factor, whatever the factor. For a factor of all FRFs see [`super::frf_scale`].
 
 use rotordyn_core::document::number;
 use rotordyn_identify::mac::frac;
@@ -25,26 +24,13 @@ const ZERO_POWER: f64 = 1e-6;
 /// Computed over measured level of a sensor that measures nothing, and the least share of the largest computed response.
 const DEAD: f64 = 30.0;
 const DEAD_SHARE: f64 = 0.01;
-/// Relative deviation from the factor of a known mistake.
-const NEAR: f64 = 0.06;
-/// Computed over measured values of common mistakes.
-const MISTAKES: [(f64, &str); 10] = [
-    (9.806_65, "values in g taken as m/s^2"),
-    (1.0 / 9.806_65, "values in m/s^2 taken as g"),
-    (1e-3, "values in mm, or per kN, taken as m, or per N"),
-    (1e3, "values in m taken as mm"),
-    (1e-6, "values in um taken as m"),
-    (0.0254, "values in inches taken as m"),
-    (1.0 / 4.448_222, "values per lbf taken as per N"),
-    (9.806_65 / 4.448_222, "values in g/lbf taken as m/s^2/N"),
-    (std::f64::consts::SQRT_2, "RMS taken as peak values"),
-    (1.0 / std::f64::consts::SQRT_2, "peak values taken as RMS"),
-];
+/// Responses or references from which the level of most of them is the right one.
+const MOST: usize = 3;
 
 /// What the FRFs of one response, of one reference or all of them show.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FrfFault {
-    /// Computed values are `factor` times the measured ones.
+    /// Computed values are `factor` times the measured ones, beside what all have in common.
     Factor { of: FrfGroup, factor: f64 },
     /// The measured ones have the other sign.
     Reversed { of: FrfGroup },
@@ -52,8 +38,6 @@ pub enum FrfFault {
     Exchanged { responses: [usize; 2] },
     /// A response measures next to nothing.
     Dead { response: usize },
-    /// The measured ones times (jω)ᵏ fit the computed ones.
-    Derivative { power: i32, frac: [f64; 2] },
 }
 
 impl FrfFault {
@@ -71,11 +55,9 @@ impl FrfFault {
         match self {
             Self::Factor { of, factor } => {
                 let (times, than) = if *factor > 1.0 { (*factor, "lower") } else { (1.0 / factor, "higher") };
-                let others = if *of == FrfGroup::All { "" } else { " in proportion to the others" };
-                let cause =
-                    likely_mistake(*factor).map_or("units, calibration or gain".into(), |m| format!("{m}?"));
                 format!(
-                    "{} have the shape of the computed ones but are {} times {than}{others}: {cause}",
+                    "{} have the shape of the computed ones but are {} times {than} in proportion to the others: unit, \
+                     calibration or gain",
                     group(of),
                     number(times, 3)
                 )
@@ -93,18 +75,6 @@ impl FrfFault {
                 "the FRFs of response {} are far below the computed ones: a dead or disconnected sensor",
                 responses[*response]
             ),
-            Self::Derivative { power, frac: [own, other] } => format!(
-                "the measured FRFs fit the computed ones if {} (FRAC {} in place of {}): another quantity than the file \
-                 states, such as displacement for acceleration",
-                match power {
-                    -2 => "divided by the frequency squared",
-                    -1 => "divided by the frequency",
-                    1 => "multiplied by the frequency",
-                    _ => "multiplied by the frequency squared",
-                },
-                number(*other, 3),
-                number(*own, 3)
-            ),
         }
     }
 }
@@ -115,12 +85,6 @@ pub enum FrfGroup {
     All,
     Response(usize),
     Reference(usize),
-}
-
-/// The common mistake that gives a factor of computed over measured values.
-pub fn likely_mistake(factor: f64) -> Option<&'static str> {
-    let found = MISTAKES.iter().find(|(known, _)| (factor / known).ln().abs() < NEAR);
-    found.map(|(_, text)| *text)
 }
 
 /// ln of computed over measured magnitude, median over the half of the lines with the larger magnitudes; `None` if one is zero.
@@ -135,9 +99,8 @@ pub fn log_ratio(measured: &[Complex64], computed: &[Complex64]) -> Option<f64> 
     (!larger.is_empty()).then(|| median(larger.iter().map(|(m, c)| (c / m).ln()).collect()))
 }
 
-/// FRFs `[response][reference][line]` at `frequencies` \[Hz\].
+/// FRFs `[response][reference][line]`.
 pub struct FrfLevels<'a> {
-    frequencies: &'a [f64],
     measured: &'a [Vec<Vec<Complex64>>],
     computed: &'a [Vec<Vec<Complex64>>],
 }
@@ -151,12 +114,8 @@ struct FrfMatch {
 }
 
 impl<'a> FrfLevels<'a> {
-    pub fn new(
-        frequencies: &'a [f64],
-        measured: &'a [Vec<Vec<Complex64>>],
-        computed: &'a [Vec<Vec<Complex64>>],
-    ) -> Self {
-        Self { frequencies, measured, computed }
+    pub fn new(measured: &'a [Vec<Vec<Complex64>>], computed: &'a [Vec<Vec<Complex64>>]) -> Self {
+        Self { measured, computed }
     }
 
     fn responses(&self) -> usize {
@@ -174,11 +133,9 @@ impl<'a> FrfLevels<'a> {
         (0..self.responses()).map(|r| (0..self.references()).map(|e| of(r, e)).collect()).collect()
     }
 
-    /// Faults of units, signs and points; none in FRFs of which the model is too far.
-    pub fn faults(&self) -> Vec<FrfFault> {
-        if let Some(fault) = self.derivative() {
-            return vec![fault];
-        }
+    /// Faults of units, signs and points; none in FRFs of which the model is too far. `scale`: computed over measured, common to
+    /// all FRFs.
+    pub fn faults(&self, scale: f64) -> Vec<FrfFault> {
         let alike = self.matches();
         let mut found = self.exchanged();
         let exchanged: Vec<usize> = found.iter().flat_map(FrfFault::exchanged_responses).collect();
@@ -187,7 +144,7 @@ impl<'a> FrfLevels<'a> {
             FrfFault::Reversed { of: FrfGroup::Response(r) } => exchanged.contains(r),
             _ => false,
         };
-        let others = self.factors(&alike).into_iter().chain(reversed(&alike));
+        let others = self.factors(&alike, scale).into_iter().chain(reversed(&alike));
         found.extend(others.filter(|fault| !of_exchanged(fault)));
         found.extend(self.dead());
         found
@@ -207,28 +164,27 @@ impl<'a> FrfLevels<'a> {
         (0..self.responses()).map(row).collect()
     }
 
-    fn factors(&self, alike: &[Vec<Option<FrfMatch>>]) -> Vec<FrfFault> {
-        let fault = |of: FrfGroup, members: Vec<FrfMatch>, base: f64| {
-            let log = median(members.iter().map(|m| m.log_factor).collect()) - base;
-            let frac = median(members.iter().map(|m| m.frac).collect());
-            let limit: f64 = if frac >= NEARLY_EQUAL { FACTOR_OF_EQUAL } else { FACTOR };
-            (!members.is_empty() && log.abs() > limit.ln())
-                .then(|| (FrfFault::Factor { of, factor: log.exp() }, log))
-        };
-        let all: Vec<FrfMatch> = alike.iter().flatten().flatten().copied().collect();
-        let overall = fault(FrfGroup::All, all, 0.0);
-        let base = overall.as_ref().map_or(0.0, |(_, log)| *log);
+    fn factors(&self, alike: &[Vec<Option<FrfMatch>>], scale: f64) -> Vec<FrfFault> {
+        let all: Vec<f64> = alike.iter().flatten().flatten().map(|m| m.log_factor).collect();
+        let groups =
+            |count: usize, group: &dyn Fn(usize) -> FrfGroup, of: &dyn Fn(usize) -> Vec<FrfMatch>| {
+                let base = if count >= MOST { median(all.clone()) } else { scale.ln() };
+                let fault = |k: usize| {
+                    let members = of(k);
+                    let log = median(members.iter().map(|m| m.log_factor).collect()) - base;
+                    let frac = median(members.iter().map(|m| m.frac).collect());
+                    let limit: f64 = if frac >= NEARLY_EQUAL { FACTOR_OF_EQUAL } else { FACTOR };
+                    let is_fault = !members.is_empty() && log.abs() > limit.ln();
+                    is_fault.then(|| FrfFault::Factor { of: group(k), factor: log.exp() })
+                };
+                let found: Vec<FrfFault> = (0..count).filter_map(fault).collect();
+                // All of them have no factor of their own.
+                if found.len() < count { found } else { Vec::new() }
+            };
         let of_response = |r: usize| alike[r].iter().flatten().copied().collect();
         let of_reference = |e: usize| alike.iter().filter_map(|row| row[e]).collect();
-        let responses =
-            (0..self.responses()).filter_map(|r| fault(FrfGroup::Response(r), of_response(r), base));
-        let mut own: Vec<FrfFault> = responses.map(|(fault, _)| fault).collect();
-        if own.is_empty() && self.references() > 1 {
-            let references =
-                (0..self.references()).filter_map(|e| fault(FrfGroup::Reference(e), of_reference(e), base));
-            own.extend(references.map(|(fault, _)| fault));
-        }
-        overall.into_iter().map(|(fault, _)| fault).chain(own).collect()
+        let own = groups(self.responses(), &FrfGroup::Response, &of_response);
+        if own.is_empty() { groups(self.references(), &FrfGroup::Reference, &of_reference) } else { own }
     }
 
     /// Mean FRAC of the measured FRFs of one response with the computed ones of another, where these differ from zero.
@@ -260,31 +216,6 @@ impl<'a> FrfLevels<'a> {
         };
         let rows = (0..self.responses()).filter(is_dead);
         rows.map(|response| FrfFault::Dead { response }).collect()
-    }
-
-    /// An FRF times ω^power, without a line at 0 Hz.
-    fn times(&self, frf: &[Complex64], power: i32) -> Vec<Complex64> {
-        let factor = |f: f64| if f > 0.0 { (TAU * f).powi(power) } else { 0.0 };
-        frf.iter().zip(self.frequencies).map(|(h, f)| h * factor(*f)).collect()
-    }
-
-    /// The power k of (jω)ᵏ that makes the measured FRFs fit, if it is not 0.
-    fn derivative(&self) -> Option<FrfFault> {
-        let typical = |power: i32| {
-            let pairs = self.measured.iter().zip(self.computed).flat_map(|(m, c)| m.iter().zip(c));
-            let mut values: Vec<f64> =
-                pairs.map(|(m, c)| frac(&self.times(m, power), &self.times(c, 0))).collect();
-            // FRFs that the model does not have, such as those across decoupled planes, say nothing.
-            values.sort_by(f64::total_cmp);
-            median(values.split_off(values.len() / 2))
-        };
-        let own = typical(0);
-        let (power, best) = [-2, -1, 1, 2]
-            .map(|power| (power, typical(power)))
-            .into_iter()
-            .max_by(|a, b| a.1.total_cmp(&b.1))?;
-        (own < NEARLY_EQUAL && best > NEARLY_EQUAL && 1.0 - best < NEARER * (1.0 - own))
-            .then_some(FrfFault::Derivative { power, frac: [own, best] })
     }
 }
 

@@ -13,6 +13,7 @@
 //! | [`parameter`] | free parameters: numbers of the model file, single or grouped |
 //! | [`residual`] | residuals of frequencies, damping and shapes, with exact sensitivities |
 //! | [`frf`] | residuals of FRFs: selected lines and their weights |
+//! | [`frf_scale`] | one factor between all measured and computed FRFs: wrong unit or quantity |
 //! | [`least_squares`] | Levenberg-Marquardt with bounds and priors |
 //! | [`identifiability`] | identifiability, standard errors and correlation of the parameters |
 //! | [`data_kind`] | kinds of the data, and the misfit of each |
@@ -33,6 +34,7 @@ mod error;
 pub mod force_levels;
 pub mod frf;
 pub mod frf_levels;
+pub mod frf_scale;
 pub mod goodness;
 pub mod groups;
 pub mod identifiability;
@@ -242,7 +244,7 @@ fn update_decided(job: &UpdateJob) -> Result<Update, UpdateFailure> {
     if goodness.is_rejected() {
         classes.iter_mut().filter(|c| c.is_fitted()).for_each(|c| *c = IdentifiabilityClass::PoorFit);
     } else if classes.iter().any(|class| class.is_fitted()) {
-        fixed = fixed_influences(job, &at, &state, &fitted_modes, &estimate.errors, &goodness)?;
+        fixed = fixed_influences(job, &at, &state, &fitted_modes, &estimate.errors)?;
         for (class, found) in classes.iter_mut().zip(&mut fixed) {
             if !class.is_fitted() {
                 *found = FixedInfluence::default();

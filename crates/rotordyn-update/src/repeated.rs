@@ -92,6 +92,7 @@ mod tests {
             frequency_error: 0.0,
             damping_error: 0.0,
             shape: shape.map(Complex64::from).to_vec(),
+            shape_error: 0.0,
         }
     }
 

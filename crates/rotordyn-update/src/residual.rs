@@ -21,7 +21,7 @@ pub struct Fitting {
     pub frequency: Option<f64>,
     /// Of ln ζ.
     pub damping: Option<f64>,
-    /// Of √(1 − MAC).
+    /// Of √(1 − MAC): 0.05.
     pub shape: Option<f64>,
     pub frf: Option<FrfFitting>,
 }
@@ -110,7 +110,8 @@ fn mode_rows(
     {
         // All points together count as one datum, √(1 − MAC)/σ.
         let changes = sensitivity.shape_derivatives(by)?;
-        shape_rows(&state.sensor_rows, &state.shapes[place], &measured.shape, &changes, least, rows);
+        let deviation = least.max(measured.shape_error);
+        shape_rows(&state.sensor_rows, &state.shapes[place], &measured.shape, &changes, deviation, rows);
         rows.count(DataKind::Shape, 1.0);
     }
     Ok(())

@@ -84,8 +84,10 @@ impl Point {
 pub(crate) struct Score {
     /// Position among the candidates.
     pub candidate: usize,
-    /// u²/i.
+    /// u²/i, the decrease of χ² and the priors' part of the objective together.
     pub gain: f64,
+    /// Decrease of χ² alone: without the priors, which gain too if the fitted values are far from their means.
+    pub data_gain: f64,
     /// −u/i.
     pub change: f64,
     /// 1/√i, the standard error of the candidate if it were free.
@@ -144,10 +146,13 @@ impl Scores {
             let slope = columns[k].dot(&at.residual) - followed[k].dot(&gradient);
             let mut following = vec![0.0; point.x.len()];
             movable.iter().zip(&followed[k]).for_each(|(&j, v)| following[j] = -v);
+            let change = -slope / information;
+            let effect = (&columns[k] - &own * &followed[k]) * change;
             Score {
                 candidate: places[k],
                 gain: slope * slope / information,
-                change: -slope / information,
+                data_gain: -(2.0 * at.residual.dot(&effect) + effect.norm_squared()),
+                change,
                 error: information.sqrt().recip(),
                 following,
             }
@@ -238,6 +243,10 @@ mod tests {
             assert!((found.all[k].change - both[1]).abs() < 1e-12);
             // What the candidate adds to the move of the free parameter.
             let score = &found.all[k];
+            // From the point as it is, the free parameter follows the candidate only.
+            let after = &residual + (&g + &j * score.following[0]) * score.change;
+            let fall = residual.norm_squared() - after.norm_squared();
+            assert!((score.data_gain - fall).abs() < 1e-12, "{k}: {} {fall}", score.data_gain);
             assert!((score.shift(0) - (both[0] - alone)).abs() < 1e-12);
             // Errors with the candidate free, by the inverse of both.
             let covariance = matrix.try_inverse().unwrap();

@@ -59,6 +59,8 @@ pub struct TargetMode {
     pub damping_error: f64,
     /// Mode shape over the sensors.
     pub shape: Vec<Complex64>,
+    /// Standard deviation of √(1 − MAC) by the error of the shape; 0 if unknown.
+    pub shape_error: f64,
 }
 
 /// Measured FRFs at points of the model.
@@ -270,6 +272,7 @@ pub fn modes_of(
             frequency_error: 0.0,
             damping_error: 0.0,
             shape: shape.collect(),
+            shape_error: 0.0,
         })
     };
     let mut found: Vec<TargetMode> = same_group.iter().filter_map(mode).collect();

@@ -1,5 +1,6 @@
 //! Noisy FRFs: all modes are found, and their standard errors match the scatter.
 
+use rotordyn_identify::mac::mac;
 use rotordyn_identify::{Settings, identify};
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::record::{Dof, MeasurementNoise};
@@ -67,6 +68,34 @@ fn standard_errors_match_the_scatter_of_receptances() {
 fn standard_errors_match_the_scatter_with_few_lines() {
     // The lowest mode's half-power bandwidth of 0.24 Hz is one line spacing.
     check(&pulls(&[0, 4], 2, 40.0, 0.25, 40));
+}
+
+/// RMS of √(1 − MAC) over its stated deviation, 1 if that is correct. A shape has many components, so that 10 seeds suffice
+/// for the bounds; one mode is hardly excited, and its shape is tens of times worse than the others.
+#[test]
+fn shape_errors_match_the_scatter() {
+    let mut known = known(&[0, 4]);
+    known[2].participation.iter_mut().for_each(|l| *l *= 0.03);
+    let exact = frfs(&known, &lines(2.0, 110.0, 0.1), 2);
+    let settings = Settings { max_order: Some(30), ..Settings::default() };
+    let seeds = 10;
+    let (mut sums, mut stated) = (vec![0.0; known.len()], vec![0.0; known.len()]);
+    for seed in 0..seeds {
+        let test = MeasurementNoise { signal_to_noise_db: 40.0, averages: 10, seed };
+        let found = identify(&exact.with_measurement_noise(&test).unwrap(), &settings).unwrap();
+        for (k, truth) in known.iter().enumerate() {
+            let near = |m: &&rotordyn_identify::Mode| (m.frequency_hz() - truth.hz()).abs() < 0.5;
+            let mode = found.modes.iter().find(near).unwrap();
+            sums[k] += (1.0 - mac(&mode.shape, &truth.shape)) / mode.shape_error.powi(2) / seeds as f64;
+            stated[k] += mode.shape_error / seeds as f64;
+        }
+    }
+    let rms: Vec<f64> = sums.into_iter().map(f64::sqrt).collect();
+    println!("{rms:.2?}, stated {stated:?}");
+    assert!(rms.iter().all(|rms| (0.5..2.0).contains(rms)), "{rms:.2?}");
+    let largest =
+        |of: &dyn Fn(usize) -> bool| (0..5).filter(|k| of(*k)).map(|k| stated[k]).fold(0.0, f64::max);
+    assert!(stated[2] > 5.0 * largest(&|k| k != 2), "{stated:?}");
 }
 
 #[test]

@@ -166,6 +166,9 @@ fn of_frfs(measured: &MeasuredData, reading: &ReadSettings, model: &Model) -> Re
     let speed = reading.speed.or(speeds.first().map(|rpm| rpm * TAU / 60.0)).unwrap_or(0.0);
     let mut warnings: Vec<String> = found.dropped.iter().map(ToString::to_string).collect();
     warnings.extend(zero_response_warnings);
+    if let Some(text) = identify::frfs_without_unit(&matrix) {
+        warnings.push(format!("{text}; give the unit in the file or in a mapping"));
+    }
     if speeds.iter().any(|s| (s - speeds[0]).abs() > 1.0) {
         warnings.push("the FRFs were measured at different speeds; the first is taken for all".into());
     }
@@ -256,6 +259,7 @@ fn modes_of_identified(found: &ModalIdentification) -> (Vec<Dof>, Vec<TargetMode
             frequency_error: mode.frequency_error,
             damping_error: mode.damping_error,
             shape: shape.to_vec(),
+            shape_error: mode.shape_error,
         });
     }
     (dofs, modes)

@@ -213,7 +213,7 @@ fn too_few_periods(study: &str, what: &str) -> Warning {
         "study.{study}: {what} not periodic; fewer than 100 recorded periods do not tell quasi-periodic from chaotic motion"
     );
     let advice = format!("periods = 200 in [study.{study}], or see the exponent of `lyapunov`");
-    Warning::new(Code::NotSettled, &format!("study.{study}"), text).advise(advice)
+    Warning::new(Code::NotSettled, format!("study.{study}"), text).advise(advice)
 }
 
 fn is_unsettled(point: &BifurcationPoint) -> bool {
