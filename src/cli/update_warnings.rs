@@ -120,7 +120,7 @@ fn prior_shift(parameter: &FreeParameter, outcome: &Outcome) -> Option<String> {
 
 /// Measured modes that are far from the model, as text: a pair that differs by more than 10 % in frequency, and with such
 /// pairs also modes without one. Empty if no pair differs so much.
-fn far_pairs(target: &Target, state: &ModelState) -> Vec<String> {
+fn distant_modes(target: &Target, state: &ModelState) -> Vec<String> {
     let mut far = Vec::new();
     let mut any = false;
     for (k, measured) in target.modes.iter().enumerate() {
@@ -216,9 +216,9 @@ fn advice(parameters: &[FreeParameter], target: &Target, found: &Update, finding
     let explaining: Vec<String> =
         search.iter().flat_map(|search| search.explaining().take(SHOWN)).map(changed).collect();
     let or = explaining.join(" or ");
-    let mut far = far_pairs(target, &found.before);
+    let mut far = distant_modes(target, &found.before);
     // A fit that has come near the data does not suffer from its start.
-    if !far.is_empty() && !far_pairs(target, &found.after).is_empty() {
+    if !far.is_empty() && !distant_modes(target, &found.after).is_empty() {
         let more = if far.len() > SHOWN { ", ..." } else { "" };
         far.truncate(SHOWN);
         let names: Vec<String> = parameters.iter().map(|p| p.name.clone()).collect();

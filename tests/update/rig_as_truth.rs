@@ -178,17 +178,17 @@ fn shape_of_known_error_does_not_reject_a_right_model() {
     }
 }
 
-/// A pulley 1 % lighter than in the model changes no frequency by more than its stated deviation: although the other
-/// differences are smaller still, nothing is said to depend on its mass.
+/// A pulley 3 % lighter than in the model lets χ² fall by less than chance does: although the other differences are smaller
+/// still, nothing is said to depend on its mass. One 15 % lighter is found.
 #[test]
 fn difference_within_the_stated_deviations_is_no_dependence() {
     let paths = ["material.steel.young", "shaft.section.0.outer_diameter"];
-    let mut target = measured(variant(None, &[("disc.pulley.mass", "0.97 kg")]));
+    let mut target = measured(variant(None, &[("disc.pulley.mass", "0.85 kg")]));
     let (_, light) = fitted(&paths, Fitting::default(), &target);
     let on =
         |found: &Update, j: usize| found.outcomes[j].fixed.depends_on.as_ref().map(|d| d.on.name.clone());
     assert_eq!(on(&light, 0).as_deref(), Some("disc.pulley.mass"));
-    target.modes = measured(variant(None, &[("disc.pulley.mass", "0.99 kg")])).modes;
+    target.modes = measured(variant(None, &[("disc.pulley.mass", "0.97 kg")])).modes;
     let (_, found) = fitted(&paths, Fitting::default(), &target);
     assert!(found.goodness.chi_squared < 6.0, "{:?}", found.goodness);
     assert_eq!([on(&found, 0), on(&found, 1)], [None, None]);

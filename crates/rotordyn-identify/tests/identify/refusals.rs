@@ -1,8 +1,8 @@
 //! Error messages with hints for data that cannot be identified.
 
-use rotordyn_identify::{Settings, identify};
+use rotordyn_identify::{Settings, frfs_without_unit, identify};
 use rotordyn_linalg::Complex64;
-use rotordyn_signal::record::FrfMatrix;
+use rotordyn_signal::record::{Dof, FrfMatrix};
 
 use crate::known_modes::{KnownMode, bending_shape, frfs, lines};
 
@@ -87,4 +87,19 @@ fn force_over_motion_is_refused() {
         made.units.iter_mut().flatten().for_each(|own| *own = unit.into());
         assert!(identify(&made, &Settings::default()).is_ok(), "{unit}");
     }
+}
+
+#[test]
+fn frfs_without_a_unit_are_named() {
+    let of = |units: [&str; 2]| FrfMatrix {
+        frequencies: vec![1.0],
+        responses: vec![Dof::new(6, 1), Dof::new(30, 1)],
+        references: vec![Dof::new(30, 1)],
+        values: vec![vec![vec![1.0.into()]]; 2],
+        units: units.map(|unit| vec![unit.into()]).to_vec(),
+        coherence: None,
+    };
+    assert_eq!(frfs_without_unit(&of(["(m/s^2)/N", "m/N"])), None);
+    let text = frfs_without_unit(&of(["(m/s^2)/N", ""])).unwrap();
+    assert_eq!(text, "1 of 2 FRFs have no unit (30:+x/30:+x) and are treated as accelerance");
 }
