@@ -6,7 +6,10 @@ use std::time::Instant;
 
 use rotordyn::error::Error;
 use rotordyn::identify::operational::OperationalSettings;
-use rotordyn::identify::{ModalIdentification, ResidualTerms, Settings, frfs_without_unit, identify};
+use rotordyn::identify::{
+    ModalIdentification, ResidualTerms, Settings, frfs_without_unit, identify, low_coherence,
+    single_lines_text, without_single_lines,
+};
 use rotordyn::io::hdf5::open_reader;
 use rotordyn::io::measured::impact_run;
 use rotordyn::io::measured::mapping::{self, Mapping};
@@ -126,9 +129,14 @@ fn identify_modes(
         [only] => with_file_name(only, error),
         _ => error.into(),
     };
-    let frfs = all.frf_matrix().map_err(|error| with_context(error.into()))?;
+    let mut frfs = all.frf_matrix().map_err(|error| with_context(error.into()))?;
+    if let Some((repaired, at)) = without_single_lines(&frfs) {
+        warnings.push(single_lines_text(&at));
+        frfs = repaired;
+    }
     quality_warnings(&frfs, args, from_hits, warnings);
     let found = identify(&frfs, settings).map_err(|error| with_context(error.into()))?;
+    warnings.extend(low_coherence(&frfs, &found));
     for mode in found.modes.iter().filter(|m| m.damping_ratio() <= 0.0) {
         warnings.push(format!(
             "without the damping of the exponential window the mode at {:.3} Hz has a damping ratio of {:.3} %: \

@@ -107,6 +107,23 @@ fn inconsistent_orders_are_a_warning() {
     assert_eq!(channel["envelope"]["diagnosis"], "outer race");
 }
 
+/// The computed lines of a perfect bearing at BPFO are its variable compliance; those of a dented one are not called so.
+#[test]
+fn variable_compliance_of_a_perfect_bearing_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = "speed={profile=\"ramp\", settle=\"0.3 s\", ramp=\"0.3 s\", hold=\"3 s\", to=\"1200 rpm\"}";
+    let found = |variant: &[&str]| {
+        let run = ["run-up", "models/overhung_rig.toml", "--set", set, "--no-figures", "--quiet", "--out"];
+        output_of(rotordyn().args(run).arg(folder.path()).args(variant));
+        let flags = ["--channel", "B_ay", "--bearing", "B", "--time", "1 s ..", "--analyses", "envelope"];
+        let found = json_of(rotordyn().arg("signal").arg(folder.path()).args(flags).arg("--no-figures"));
+        assert_eq!(found["channels"][0]["envelope"]["diagnosis"], "outer race", "{variant:?}");
+        found["warnings"].to_string().contains("variable compliance")
+    };
+    assert!(found(&[]));
+    assert!(!found(&["--variant", "dented"]));
+}
+
 /// Dents and bumps of the models, simulated and analysed by the same program.
 #[test]
 fn simulated_defects_are_named() {

@@ -40,6 +40,10 @@ pub enum IdentifyError {
     )]
     NoMode { from: f64, to: f64, poles: usize, orders: usize, dropped: Vec<DroppedPole> },
     #[error(
+        "no mode was found in {from:.3} .. {to:.3} Hz: the phase of the FRFs rises through the resonances, as of the time convention e^(-j omega t) or of a reversed imaginary part; reverse its sign"
+    )]
+    ReversedPhase { from: f64, to: f64 },
+    #[error(
         "the record of response {response} is NaN or infinite at {time:.6} s; leave the channel out, or choose a time range without it"
     )]
     NotFiniteSample { response: String, time: f64 },

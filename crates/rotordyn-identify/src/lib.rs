@@ -14,6 +14,8 @@
 //! | `two_modes` | two close poles: two modes, or one mode that differs between the FRFs |
 //! | `window`, `principal_outputs` | FRFs in a part of the band, on few directions, for cheap fits |
 //! | `uncertainty`, `misfit`, `nonlinearity` | standard errors of poles: noise (jackknife) and error of the modal model |
+//! | `mode_coherence` | coherence at the resonances |
+//! | `single_lines` | lines that stand alone, such as those of the mains |
 //! | `shape_errors` | standard errors of shapes |
 //! | `one_band`, `bands` | modes of one band; a record that holds too much for one is split |
 //! | [`mac`](mod@mac) | MAC, FRAC, FDAC, phase collinearity |
@@ -32,6 +34,7 @@ mod error;
 mod lsfd;
 pub mod mac;
 mod misfit;
+mod mode_coherence;
 mod mode_selection;
 mod nonlinearity;
 mod one_band;
@@ -47,6 +50,7 @@ mod reweight;
 pub mod sdof;
 mod settings;
 mod shape_errors;
+mod single_lines;
 mod stabilisation;
 mod two_modes;
 mod uncertainty;
@@ -55,10 +59,13 @@ mod window;
 
 pub use data::{frfs_without_unit, is_force_over_motion, quantity_of};
 pub use error::IdentifyError;
+pub use mode_coherence::low_coherence;
 pub use result::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning, Stability};
 pub use settings::{ResidualTerms, Settings};
+pub use single_lines::{single_lines_text, without_single_lines};
 
 use data::Data;
+use rotordyn_linalg::Complex64;
 use rotordyn_signal::record::FrfMatrix;
 
 /// Identifies the modes in FRFs.
@@ -72,8 +79,29 @@ use rotordyn_signal::record::FrfMatrix;
 /// dead channel, no mode.
 pub fn identify(frfs: &FrfMatrix, settings: &Settings) -> Result<ModalIdentification, IdentifyError> {
     let data = Data::new(frfs, settings)?;
-    match bands::split(&data) {
+    let (rises, [from, to]) = (phase_rise(&data) > REVERSED_RISE, data.band());
+    let found = match bands::split(&data) {
         bands if bands.len() > 1 => bands::identify_bands(frfs, settings, &bands),
         _ => one_band::identify_band(frfs, settings, data),
+    };
+    match found {
+        Err(IdentifyError::NoMode { .. }) if rises => Err(IdentifyError::ReversedPhase { from, to }),
+        found => found,
     }
+}
+
+/// Mean sine of the phase's rise from line to line, from which it is no chance.
+const REVERSED_RISE: f64 = 0.02;
+
+/// Mean sine of the rise of the phase from line to line, weighted by the power of each FRF's lines: Σ Im(H_{k+1} H_k*) / Σ |H_{k+1} H_k|.
+///
+/// Negative of a damped structure, whose phase falls by π in every resonance: between, where it rises, it has no power.
+fn phase_rise(data: &Data) -> f64 {
+    let of = |frf: &Vec<Complex64>| {
+        let pairs = || frf.windows(2).map(|w| w[1] * w[0].conj());
+        let size: f64 = pairs().map(|p| p.norm()).sum();
+        if size > 0.0 { pairs().map(|p| p.im).sum::<f64>() / size } else { 0.0 }
+    };
+    let all: Vec<f64> = data.values.iter().flatten().map(of).collect();
+    all.iter().sum::<f64>() / all.len().max(1) as f64
 }

@@ -6,7 +6,8 @@ use rotordyn::bearing::{BallGeometry, CharacteristicOrders};
 use rotordyn::io::hdf5::open_reader;
 use rotordyn::model::catalogue;
 use rotordyn::names::nearest;
-use rotordyn::results::BearingWithOrders;
+use rotordyn::results::{BearingWithOrders, SignalResult};
+use rotordyn::signal::bearing_lines::BearingPart;
 use rotordyn::warning::Code;
 
 use super::super::args::ModelArgs;
@@ -34,10 +35,7 @@ pub fn find(
             let model = ModelArgs { model: model.clone(), variant: None, set: Vec::new() };
             Some(ModelSource::read(&model)?)
         }
-        None => match run {
-            Some(path) => stored_origin(&*open_reader(path, limits())?).ok(),
-            None => None,
-        },
+        None => run.map(model_of_run).transpose()?.flatten(),
     };
     let of_model = match &origin {
         Some(origin) => origin.load_bearings(&Settings::default())?.bearings,
@@ -63,6 +61,33 @@ pub fn find(
     let places = if of_model.is_empty() { "in the catalogue" } else { "in the model or the catalogue" };
     findings.problem(format!("there is no bearing `{name}` {places}; {hint}"));
     Ok(None)
+}
+
+/// The model that a run was computed with, if its results hold it.
+fn model_of_run(path: &Path) -> Result<Option<ModelSource>, Failure> {
+    Ok(stored_origin(&*open_reader(path, limits())?).ok())
+}
+
+/// Warning about lines of the outer race in a computed run whose bearing is perfect.
+///
+/// The balls that pass through the load change the stiffness at BPFO (variable compliance), and a computed record has no noise
+/// that hides it.
+pub fn variable_compliance(run: Option<&Path>, results: &[SignalResult]) -> Result<Option<String>, Failure> {
+    let is_outer = |result: &&SignalResult| {
+        let graded = result.envelope.as_ref().and_then(|envelope| envelope.graded.as_ref());
+        graded.is_some_and(|graded| graded.part() == Some(BearingPart::OuterRace))
+    };
+    let Some((found, run)) = results.iter().find(is_outer).zip(run) else { return Ok(None) };
+    let (Some(bearing), Some(origin)) = (&found.bearing, model_of_run(run)?) else { return Ok(None) };
+    let bearings = origin.load_bearings(&Settings::default())?.bearings;
+    let own = bearings.iter().find(|(name, _)| *name == bearing.name);
+    Ok(own.filter(|(_, ball)| ball.imperfections.is_empty()).map(|(name, _)| {
+        format!(
+            "{}: the run was computed with a perfect bearing {name}: its lines at BPFO are those of variable compliance, of the \
+             balls that pass through the load, not of a damaged outer race",
+            found.channel
+        )
+    }))
 }
 
 fn of_geometry(name: &str, source: String, g: &BallGeometry) -> BearingWithOrders {

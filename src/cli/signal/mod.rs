@@ -110,6 +110,7 @@ pub fn run(args: &SignalArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
     warnings.retain(|note| args.record.rate.is_none() || !note.starts_with("no sampling rate"));
     warnings.extend(findings.warnings);
     warnings.extend(results.iter().flat_map(|r| r.warnings.clone()));
+    warnings.extend(bearing::variable_compliance(file.run(), &results)?);
     warnings.into_iter().for_each(|text| terminal.warn_of(Code::SignalAnalysis, text));
     let clipped = channels.iter().filter_map(input::clipping_text);
     clipped.for_each(|text| terminal.warn_of(Code::ClippedRecord, text));

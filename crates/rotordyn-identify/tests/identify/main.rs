@@ -7,6 +7,7 @@ mod full_band;
 mod heavy_damping;
 mod inconsistent_output;
 mod known_modes;
+mod mains;
 mod model_error;
 mod noise;
 mod noise_only;

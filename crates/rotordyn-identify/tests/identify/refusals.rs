@@ -103,3 +103,17 @@ fn frfs_without_a_unit_are_named() {
     let text = frfs_without_unit(&of(["(m/s^2)/N", ""])).unwrap();
     assert_eq!(text, "1 of 2 FRFs have no unit (30:+x/30:+x) and are treated as accelerance");
 }
+
+/// FRFs of the other sign convention, conjugated, have no stable pole: the reason is named.
+#[test]
+fn conjugated_frfs_are_refused_with_the_reason() {
+    let modes = [(21.0, 0.01, 1), (48.0, 0.03, 2)]
+        .map(|(hz, zeta, k)| KnownMode::real(hz, zeta, &bending_shape(k, 5), &[1, 3]));
+    for power in 0..3 {
+        let mut made = frfs(&modes, &lines(5.0, 85.0, 0.25), power);
+        assert!(identify(&made, &Settings::default()).is_ok());
+        made.values.iter_mut().flatten().flatten().for_each(|h| *h = h.conj());
+        let error = identify(&made, &Settings::default()).unwrap_err().to_string();
+        assert!(error.contains("the phase of the FRFs rises through the resonances"), "{error}");
+    }
+}

@@ -161,11 +161,18 @@ fn of_frfs(measured: &MeasuredData, reading: &ReadSettings, model: &Model) -> Re
     let zero_response_warnings = drop_zero_responses(&mut matrix);
     let stop = reading.stop.cloned().unwrap_or_default();
     let settings = identify::Settings { band: reading.band, stop, ..identify::Settings::default() };
+    let repaired = identify::without_single_lines(&matrix);
+    let replaced = repaired.map(|(repaired, at)| {
+        matrix = repaired;
+        identify::single_lines_text(&at)
+    });
     let found = identify::identify(&matrix, &settings)?;
     let speeds: Vec<f64> = measured.records.iter().filter_map(|r| r.speed_rpm).collect();
     let speed = reading.speed.or(speeds.first().map(|rpm| rpm * TAU / 60.0)).unwrap_or(0.0);
     let mut warnings: Vec<String> = found.dropped.iter().map(ToString::to_string).collect();
     warnings.extend(zero_response_warnings);
+    warnings.extend(replaced);
+    warnings.extend(identify::low_coherence(&matrix, &found));
     if let Some(text) = identify::frfs_without_unit(&matrix) {
         warnings.push(format!("{text}; give the unit in the file or in a mapping"));
     }
