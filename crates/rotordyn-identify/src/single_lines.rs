@@ -1,28 +1,42 @@
-//! Lines of FRFs that stand alone, such as those of the mains: neither their neighbours nor a mode explains them.
+//! Lines of FRFs at multiples of the mains that stand alone: neither their neighbours nor a mode explains them.
 
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::record::FrfMatrix;
 
-/// Deviation of a line from its neighbours over their magnitude, and over the roughness beside, from which it stands out.
-const STANDS_OUT: f64 = 1.0;
+/// Magnitude of a line over those of its neighbours, and its deviation from them over the roughness beside, from which it stands
+/// out.
+const STANDS_OUT: f64 = 1.5;
 const OVER_ROUGHNESS: f64 = 10.0;
+/// Amplitude of a pole in the neighbours, at a distance of one line, over the roughness, up to which there is none.
+const NO_POLE: f64 = 6.0;
+/// Frequencies of mains, and the coarsest lines that tell their multiples \[Hz\].
+const MAINS: [f64; 2] = [50.0, 60.0];
+const COARSEST: f64 = 2.0;
 /// Share of the FRFs in which it does.
 const MIN_SHARE: f64 = 0.5;
 /// Lines on either side over which the roughness is read.
 const BESIDE: std::ops::Range<usize> = 4..8;
 
-/// The FRFs with the lines that stand alone in most of them replaced by cubic interpolation, and the frequencies of these \[Hz\];
+/// The FRFs with the lines at multiples of 50 or 60 Hz that stand alone in most of them replaced by cubic interpolation, and the frequencies of these \[Hz\];
 /// `None` if there are none.
 ///
-/// A pole between lines, however light its damping, raises its neighbours with opposite signs and more than the lines farther
-/// off; a line of the mains, which is no response to the force, raises itself alone, or with a Hann window also its neighbours.
+/// A pole near a line, however light its damping, has its part R/x in the lines at ±x beside; a line of the mains, which is no
+/// response to the force, stands alone, or with a Hann window with its neighbours.
 /// Uniformly spaced frequencies are assumed.
 pub fn without_single_lines(frfs: &FrfMatrix) -> Option<(FrfMatrix, Vec<f64>)> {
     let all: Vec<&Vec<Complex64>> = frfs.values.iter().flatten().collect();
     let lines = frfs.frequencies.len();
     let margin = BESIDE.end + 3;
     let mut found: Vec<(usize, usize)> = Vec::new();
-    for k in margin..lines.saturating_sub(margin) {
+    let step = frfs.frequencies.get(1).map_or(0.0, |second| second - frfs.frequencies[0]);
+    let of_mains = |k: usize| {
+        let hz = frfs.frequencies[k];
+        MAINS.iter().any(|mains| hz > 0.5 * mains && (hz - mains * (hz / mains).round()).abs() <= 0.5 * step)
+    };
+    if step > COARSEST {
+        return None;
+    }
+    for k in (margin..lines.saturating_sub(margin)).filter(|k| of_mains(*k)) {
         let share = |half: usize| all.iter().filter(|frf| stands_out(frf, k, half)).count() as f64;
         let least = MIN_SHARE * all.len() as f64;
         let half = (0..2).find(|half| share(*half) >= least);
@@ -73,14 +87,17 @@ fn stands_out(frf: &[Complex64], k: usize, half: usize) -> bool {
             points.iter().map(|&x| frf[(k as i32 + x) as usize] * weight(x, 0, points)).sum();
         (frf[k] - expected).norm()
     };
-    let near = [k - a, k + a].map(|j| frf[j].norm()).into_iter().fold(0.0, f64::max);
+    let near = [k - b, k - a, k + a, k + b].map(|j| frf[j].norm()).into_iter().fold(0.0, f64::max);
     let spike = off(k);
-    if spike <= STANDS_OUT * near {
+    if frf[k].norm() <= STANDS_OUT * near {
         return false;
     }
     let mut beside: Vec<f64> = BESIDE.flat_map(|j| [off(k - j), off(k + j)]).collect();
     beside.sort_by(f64::total_cmp);
     let roughness = beside[beside.len() / 2];
-    let across = |j: usize| (frf[k + j] - frf[k - j]).norm();
-    spike > OVER_ROUGHNESS * roughness && across(a) < across(b) + 3.0 * roughness
+    // Odd part q x + R/x of the lines at ±a and ±b.
+    let odd = |j: usize| (frf[k + j] - frf[k - j]) * 0.5;
+    let (near, far) = (a as f64, b as f64);
+    let pole = (odd(a) * far - odd(b) * near).norm() / (far / near - near / far);
+    spike > OVER_ROUGHNESS * roughness && pole < NO_POLE * roughness
 }
