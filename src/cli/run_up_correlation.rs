@@ -32,6 +32,8 @@ const MAX_ROWS: usize = 40;
 const MAX_START_SPEED_RATIO: f64 = 0.2;
 /// Revolutions on either side over which the jitter of tacho pulses is smoothed.
 const SMOOTHING_REVOLUTIONS: usize = 4;
+/// Relative distance of two maxima from which a window takes another part of each.
+const ELSEWHERE: f64 = 0.03;
 /// Fraction of a channel's largest order below which an order is not listed.
 const MIN_ORDER_LEVEL_RATIO: f64 = 1e-3;
 
@@ -222,7 +224,11 @@ pub fn compare(
         terminal.warn(&warning.prefixed("the simulated run-up"));
     }
     let sides = ["the measured run-up", "the simulated run-up"];
-    let smeared = |side: usize| smeared_maxima(pairs.iter().map(move |pair| &pair.orders[side]));
+    // Maxima at one place lose the same.
+    let elsewhere = |cut: &CutPair| (cut.peaks[1].rpm / cut.peaks[0].rpm - 1.0).abs() > ELSEWHERE;
+    let unlike = |pair: &&ChannelPair| pair.cuts.iter().any(elsewhere);
+    let smeared =
+        |side: usize| smeared_maxima(pairs.iter().filter(unlike).map(move |pair| &pair.orders[side]));
     for (side, warning) in (0..2).flat_map(|k| smeared(k).into_iter().map(move |w| (sides[k], w))) {
         terminal.warn(&warning.prefixed(side));
     }

@@ -40,7 +40,7 @@ fn steady_motions_are_computed_printed_and_stored() {
     let range = ["--from", "1600 rpm", "--to", "2300 rpm", "--count", "8"];
     let text = run("bifurcation", &[&range[..], &SHORT].concat());
     for part in
-        ["Motion over speed rpm, sweep up", "Motion over speed rpm, sweep down", "chaotic", "period 1"]
+        ["Motion over speed rpm, sweep up", "Motion over speed rpm, sweep down", "not periodic", "period 1"]
     {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }

@@ -36,7 +36,8 @@ fn traced(command: &Command, options: &[&str]) -> Command {
 
 /// Runs a command that must succeed; returns the points at which its first thread changes files.
 pub fn points(command: &Command, log: &Path) -> Vec<Point> {
-    let output = traced(command, &["-e", &format!("trace={CALLS}"), "-o", log.to_str().unwrap()]).output();
+    let output =
+        traced(command, &["-y", "-e", &format!("trace={CALLS}"), "-o", log.to_str().unwrap()]).output();
     let output = output.unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = std::fs::read_to_string(log).unwrap();
@@ -45,11 +46,16 @@ pub fn points(command: &Command, log: &Path) -> Vec<Point> {
     let mut found = Vec::new();
     for line in text.lines() {
         let Some((thread, call)) = line.split_once(' ') else { continue };
-        let Some((name, _)) = call.trim_start().split_once('(') else { continue };
+        let Some((name, arguments)) = call.trim_start().split_once('(') else { continue };
+        // A pipe to the process that reads a file is no output, and no disk.
+        let is_output =
+            !arguments.contains("<pipe:") || ["1<", "2<"].iter().any(|fd| arguments.starts_with(fd));
         if thread == first && !name.starts_with('<') {
             let count = counts.entry(name.to_string()).or_insert(0);
             *count += 1;
-            found.push((name.to_string(), *count));
+            if is_output {
+                found.push((name.to_string(), *count));
+            }
         }
     }
     found

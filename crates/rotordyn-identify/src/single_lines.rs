@@ -15,7 +15,7 @@ const COARSEST: f64 = 2.0;
 /// Share of the FRFs in which it does.
 const MIN_SHARE: f64 = 0.5;
 /// Lines on either side over which the roughness is read.
-const BESIDE: std::ops::Range<usize> = 4..8;
+const APART: std::ops::Range<usize> = 4..8;
 
 /// The FRFs with the lines at multiples of 50 or 60 Hz that stand alone in most of them replaced by cubic interpolation, and the frequencies of these \[Hz\];
 /// `None` if there are none.
@@ -26,7 +26,7 @@ const BESIDE: std::ops::Range<usize> = 4..8;
 pub fn without_single_lines(frfs: &FrfMatrix) -> Option<(FrfMatrix, Vec<f64>)> {
     let all: Vec<&Vec<Complex64>> = frfs.values.iter().flatten().collect();
     let lines = frfs.frequencies.len();
-    let margin = BESIDE.end + 3;
+    let margin = APART.end + 3;
     let mut found: Vec<(usize, usize)> = Vec::new();
     let step = frfs.frequencies.get(1).map_or(0.0, |second| second - frfs.frequencies[0]);
     let of_mains = |k: usize| {
@@ -92,9 +92,9 @@ fn stands_out(frf: &[Complex64], k: usize, half: usize) -> bool {
     if frf[k].norm() <= STANDS_OUT * near {
         return false;
     }
-    let mut beside: Vec<f64> = BESIDE.flat_map(|j| [off(k - j), off(k + j)]).collect();
-    beside.sort_by(f64::total_cmp);
-    let roughness = beside[beside.len() / 2];
+    let mut deviations: Vec<f64> = APART.flat_map(|j| [off(k - j), off(k + j)]).collect();
+    deviations.sort_by(f64::total_cmp);
+    let roughness = deviations[deviations.len() / 2];
     // Odd part q x + R/x of the lines at ±a and ±b.
     let odd = |j: usize| (frf[k + j] - frf[k - j]) * 0.5;
     let (near, far) = (a as f64, b as f64);

@@ -111,7 +111,7 @@ fn motion_classes(
     x_label: Option<&str>,
 ) {
     let levels = [1.0, 2.0, 4.0, MAX_PERIOD_SHOWN, QUASI_PERIODIC_LEVEL, CHAOTIC_LEVEL, UNDECIDED_LEVEL];
-    let names = ["1", "2", "4", "≥ 8", "quasi-p.", "chaotic", "undecided"];
+    let names = ["1", "2", "4", "≥ 8", "quasi-p.", "chaotic", "unclear"];
     let shown = levels.len() - usize::from(sweeps.iter().all(|s| s.undecided.is_empty()));
     let mut axes = Axes::linear(frame, x, Range::new(0.3, levels[shown - 1] + 0.8));
     axes.y = Scale::at_ticks(axes.y, &levels[..shown]);

@@ -43,7 +43,7 @@ impl Motion {
             Self::Periodic(k) => format!("period {k}"),
             Self::Settling(k) => format!("not settled, towards period {k}"),
             Self::Unsettled => "not settled".into(),
-            Self::Aperiodic => "not periodic (too few periods to classify)".into(),
+            Self::Aperiodic => "not periodic (100 periods tell which)".into(),
             Self::QuasiPeriodic => "quasi-periodic".into(),
             Self::Chaotic => "chaotic".into(),
         }

@@ -1,8 +1,8 @@
 //! Whether a measured and a computed order line agree within their uncertainty.
 //!
 //! A level is uncertain by the background in its band and by the shaft angle: with an angle off by σ, the order ν is off by
-//! ν σ of its amplitude at most. A computed one is uncertain by the time step as well. A maximum within a window is too low by
-//! about what the window takes from it. The calibration of a sensor is not known here.
+//! ν σ of its amplitude at most. A computed one is uncertain by the time step as well. Where the maxima lie in different windows,
+//! each is too low by what its window takes from it. The calibration of a sensor is not known here.
 
 use super::order_tracking::CUT_HALF_WIDTH;
 use crate::results::{Agreement, CutAgreement, CutPeak, OrderResult, StepError};
@@ -17,6 +17,10 @@ const CONFIDENCE: f64 = 2.0;
 /// several windows, and of one that two or three windows hold.
 const BETWEEN_WINDOWS: f64 = 0.1;
 const WITHIN_A_WINDOW: f64 = 0.4;
+/// Share of [`WITHIN_A_WINDOW`] over √(1 − correlation): levels that are proportional in all windows have maxima at the same place.
+const BY_CORRELATION: f64 = 10.0;
+/// Distance of two maxima over that of the windows from which the window takes another part of each.
+const ELSEWHERE: f64 = 0.3;
 /// Windows at half the power and above from which a maximum spans several.
 const SPANNED_WINDOWS: usize = 6;
 
@@ -66,18 +70,26 @@ struct UncertainPeak {
     /// Of the level and of the speed, relative.
     level: f64,
     speed: f64,
+    /// Distance of the windows there, relative to the speed.
+    spacing: f64,
     noise_limit: Option<f64>,
 }
 
 impl UncertainPeak {
-    /// `relative`: what is uncertain beside the background.
-    fn new(cut: &OrderCut, background: Option<&CutBackground>, peak: CutPeak, relative: f64) -> Self {
+    /// `relative`: what is uncertain beside the background; `apart`: how far measured and computed levels are from proportional, 0 to 1.
+    fn new(
+        cut: &OrderCut,
+        background: Option<&CutBackground>,
+        peak: CutPeak,
+        relative: f64,
+        apart: f64,
+    ) -> Self {
         let nearest = |a: &usize, b: &usize| {
             let distance = |k: usize| (cut.rpm[k] - peak.rpm).abs();
             distance(*a).total_cmp(&distance(*b)).then(cut.rms[*b].total_cmp(&cut.rms[*a]))
         };
         let Some(window) = (0..cut.rpm.len()).min_by(nearest) else {
-            return Self { level: f64::INFINITY, speed: f64::INFINITY, noise_limit: None };
+            return Self { level: f64::INFINITY, speed: f64::INFINITY, spacing: 0.0, noise_limit: None };
         };
         let deviation = |level: f64, window: usize| {
             background.map_or(0.0, |b| b.deviation(level, window)).hypot(relative * level)
@@ -95,10 +107,12 @@ impl UncertainPeak {
         let half_power = |k: &usize| cut.rms[*k] >= std::f64::consts::FRAC_1_SQRT_2 * peak.rms;
         let spanned = (0..window).rev().take_while(half_power).count()
             + (window..cut.rpm.len()).take_while(half_power).count();
-        let between = if spanned >= SPANNED_WINDOWS { BETWEEN_WINDOWS } else { WITHIN_A_WINDOW };
+        let few = if spanned >= SPANNED_WINDOWS { 0.0 } else { apart * WITHIN_A_WINDOW };
+        let between = BETWEEN_WINDOWS.max(few);
         let speed = (0.5 * (high - low) / CONFIDENCE).max(between * spacing);
         let noise_limit = background.map(|b| b.limit(window));
-        Self { level, speed: speed / peak.rpm.max(f64::MIN_POSITIVE), noise_limit }
+        let rpm = peak.rpm.max(f64::MIN_POSITIVE);
+        Self { level, speed: speed / rpm, spacing: spacing / rpm, noise_limit }
     }
 }
 
@@ -107,6 +121,7 @@ pub(super) fn agreement(
     runs: &[CutLevels; 2],
     k: usize,
     peaks: [CutPeak; 2],
+    correlation: f64,
     errors: &KnownErrors,
 ) -> CutAgreement {
     let (label, cut, _) = runs[0].cuts[k];
@@ -116,12 +131,15 @@ pub(super) fn agreement(
     });
     // The angle counts once: it drives the model, and measured and computed orders are read over it.
     let relative = [cut.order * errors.angle, step];
-    let relative = [0, 1].map(|run| relative[run].hypot(runs[run].smear_loss(cut.order) / CONFIDENCE));
+    let apart = (BY_CORRELATION * (1.0 - correlation).max(0.0).sqrt()).min(1.0);
     let uncertain = [0, 1].map(|run| {
         let (_, cut, background) = &runs[run].cuts[k];
-        UncertainPeak::new(cut, background.as_ref(), peaks[run], relative[run])
+        UncertainPeak::new(cut, background.as_ref(), peaks[run], relative[run], apart)
     });
-    let level = CONFIDENCE * uncertain[0].level.hypot(uncertain[1].level);
+    // Maxima at the same place lose the same by the window.
+    let elsewhere = (peaks[1].rpm / peaks[0].rpm).ln().abs() > ELSEWHERE * uncertain[0].spacing;
+    let smear = [0, 1].map(|run| if elsewhere { runs[run].smear_loss(cut.order) } else { 0.0 });
+    let level = (CONFIDENCE * uncertain[0].level.hypot(uncertain[1].level)).hypot(smear[0].max(smear[1]));
     let speed = CONFIDENCE * uncertain[0].speed.hypot(uncertain[1].speed);
     let [measured, computed] = peaks;
     let finding = if let Some(limit) = uncertain[0].noise_limit.filter(|limit| measured.rms <= *limit) {

@@ -214,12 +214,9 @@ fn cut_pairs(runs: [&OrderResult; 2], errors: &KnownErrors) -> Result<Vec<CutPai
     let pair = |k: usize| {
         let [(line, m), (_, c)] = runs.map(|run| &run.cuts[k]);
         let peaks = [peak(m), peak(c)];
-        CutPair {
-            line: line.clone(),
-            peaks,
-            correlation: correlation(m, c),
-            agreement: agreement(&found, k, peaks, errors),
-        }
+        let correlation = correlation(m, c);
+        let agreement = agreement(&found, k, peaks, correlation, errors);
+        CutPair { line: line.clone(), peaks, correlation, agreement }
     };
     Ok((0..runs[0].cuts.len().min(runs[1].cuts.len())).map(pair).collect())
 }

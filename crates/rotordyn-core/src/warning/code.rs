@@ -233,8 +233,8 @@ codes! {
         "The computation takes long by the forecast of its steps or points.",
         "change what the warning names, or let it run";
     NotSettled, "not-settled", Caution,
-        "A motion has not settled within the transient allowed, or too few of its periods were recorded to classify it.",
-        "raise transient_limit, or the recorded periods";
+        "A motion has not settled within the transient allowed.",
+        "raise transient_limit";
     SweepIncomplete, "sweep-incomplete", Caution,
         "A sweep ends where a point has no equilibrium.",
         "restrict the sweep to the loads and speeds that the bearing carries";

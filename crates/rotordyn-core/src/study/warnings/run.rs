@@ -9,7 +9,6 @@ use crate::results::{BifurcationPoint, RunUpResult};
 use crate::study::{Machine, Results};
 use crate::transient::run::{End, Report};
 use crate::warning::{Code, Warning};
-use rotordyn_signal::motion_classification::Motion;
 use std::f64::consts::TAU;
 
 /// Residual of the energy balance over the energy exchanged, above which the step is too long.
@@ -169,20 +168,6 @@ pub(super) fn settling(model: &Model, results: &Results) -> Vec<Warning> {
         let advice = format!("raise transient_limit ({})", study.steady.transient_limit);
         warnings.push(Warning::new(Code::NotSettled, "study.poincare", text).advise(advice));
     }
-    if let Some(found) = results.poincare.as_ref().filter(|found| found.motion.motion == Motion::Aperiodic) {
-        let at = format!("{:.1} rpm", found.speed * TO_RPM);
-        warnings.push(too_few_periods("poincare", &format!("the motion at {at} is")));
-    }
-    if let Some(found) = &results.bifurcation {
-        let points = || found.sweeps.iter().flat_map(|sweep| &sweep.points);
-        let open =
-            |p: &&BifurcationPoint| p.motion.as_ref().is_ok_and(|m| m.motion.motion == Motion::Aperiodic);
-        let count = points().filter(open).count();
-        if count > 0 {
-            let of = format!("{count} of {} motions are", points().count());
-            warnings.push(too_few_periods("bifurcation", &of));
-        }
-    }
     if let (Some(found), Some(study)) = (&results.bifurcation, &model.studies.bifurcation) {
         for sweep in &found.sweeps {
             let unsettled: Vec<f64> =
@@ -205,15 +190,6 @@ pub(super) fn settling(model: &Model, results: &Results) -> Vec<Warning> {
         }
     }
     warnings
-}
-
-/// `what` is not periodic, and quasi-periodic or chaotic.
-fn too_few_periods(study: &str, what: &str) -> Warning {
-    let text = format!(
-        "study.{study}: {what} not periodic; fewer than 100 recorded periods do not tell quasi-periodic from chaotic motion"
-    );
-    let advice = format!("periods = 200 in [study.{study}], or see the exponent of `lyapunov`");
-    Warning::new(Code::NotSettled, format!("study.{study}"), text).advise(advice)
 }
 
 fn is_unsettled(point: &BifurcationPoint) -> bool {
