@@ -226,7 +226,10 @@ pub fn compare(
     let sides = ["the measured run-up", "the simulated run-up"];
     // Maxima at one place lose the same.
     let elsewhere = |cut: &CutPair| (cut.peaks[1].rpm / cut.peaks[0].rpm - 1.0).abs() > ELSEWHERE;
-    let unlike = |pair: &&ChannelPair| pair.cuts.iter().any(elsewhere);
+    let unlike = |pair: &&ChannelPair| {
+        let smeared = || pair.orders.iter().flat_map(|found| &found.spectrogram.smeared);
+        pair.cuts.iter().any(|cut| elsewhere(cut) && smeared().any(|smear| smear.order == cut.line.order))
+    };
     let smeared =
         |side: usize| smeared_maxima(pairs.iter().filter(unlike).map(move |pair| &pair.orders[side]));
     for (side, warning) in (0..2).flat_map(|k| smeared(k).into_iter().map(move |w| (sides[k], w))) {
