@@ -325,7 +325,7 @@ fn powers(frfs: &FrfMatrix, settings: &Settings) -> Vec<Vec<i32>> {
 }
 
 /// Number of time derivatives from the displacement.
-pub(super) fn derivatives(quantity: Quantity) -> i32 {
+pub fn derivatives(quantity: Quantity) -> i32 {
     match quantity {
         Quantity::Displacement => 0,
         Quantity::Velocity => 1,

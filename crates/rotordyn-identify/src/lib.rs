@@ -57,7 +57,7 @@ mod uncertainty;
 pub mod whirl;
 mod window;
 
-pub use data::{frfs_without_unit, is_force_over_motion, quantity_of};
+pub use data::{derivatives, frfs_without_unit, is_force_over_motion, quantity_of};
 pub use error::IdentifyError;
 pub use mode_coherence::low_coherence;
 pub use result::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning, Stability};

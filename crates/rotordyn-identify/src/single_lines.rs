@@ -17,8 +17,8 @@ const MIN_SHARE: f64 = 0.5;
 /// Lines on either side over which the roughness is read.
 const APART: std::ops::Range<usize> = 4..8;
 
-/// The FRFs with the lines at multiples of 50 or 60 Hz that stand alone in most of them replaced by cubic interpolation, and the frequencies of these \[Hz\];
-/// `None` if there are none.
+/// The FRFs with the lines at multiples of 50 or 60 Hz that stand alone in most of them replaced by cubic interpolation, and the
+/// frequencies of these \[Hz\]; `None` if there are none.
 ///
 /// A pole near a line, however light its damping, has its part R/x in the lines at ±x beside; a line of the mains, which is no
 /// response to the force, stands alone, or with a Hann window with its neighbours.

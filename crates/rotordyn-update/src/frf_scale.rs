@@ -5,6 +5,8 @@ use std::f64::consts::TAU;
 
 use super::frf::{frf_indices, is_coupled, is_usable_line};
 use super::target::TargetFrfs;
+use rotordyn_core::document::number;
+use rotordyn_identify::derivatives;
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::Quantity;
 use rotordyn_signal::statistics::median;
@@ -69,7 +71,7 @@ impl FrfScale {
 
     /// What was found.
     pub fn text(&self) -> String {
-        let ratio = format!("{:.3}", Significant(self.ratio));
+        let ratio = number(self.ratio, 3);
         let times = match self.power {
             0 => ratio,
             power if self.is_large() => format!("{ratio} omega^{power}"),
@@ -99,17 +101,6 @@ impl FrfScale {
                 "check units, calibration and amplifier gains of force and response channels".into()
             }
         }
-    }
-}
-
-/// A number with its significant digits, not those after the point.
-struct Significant(f64);
-
-impl std::fmt::Display for Significant {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let digits = f.precision().unwrap_or(3) as i32;
-        let places = (digits - 1 - self.0.abs().log10().floor() as i32).max(0) as usize;
-        write!(f, "{:.places$}", self.0)
     }
 }
 
@@ -150,19 +141,10 @@ pub fn common_scale(
         .into_iter()
         .filter(|quantity| *quantity != stated)
         .filter_map(|quantity| {
-            let found = scale_of_power(&differences, order(quantity) - order(stated), stated)?;
+            let found = scale_of_power(&differences, derivatives(quantity) - derivatives(stated), stated)?;
             Some(FrfScale { quantity: Some(quantity), ..found })
         })
         .min_by(|a, b| a.spread.total_cmp(&b.spread))
-}
-
-/// Number of derivatives by time.
-fn order(quantity: Quantity) -> i32 {
-    match quantity {
-        Quantity::Displacement => 0,
-        Quantity::Velocity => 1,
-        Quantity::Acceleration => 2,
-    }
 }
 
 /// The scale of one power of ω, if the FRFs have it.
