@@ -3,9 +3,11 @@
 use crate::agree;
 use crate::machine::{disc, element, shaft};
 use nalgebra::Complex;
+use rotordyn::analysis::ModeKind;
+use rotordyn::analysis::critical_map::MapCurve;
 use rotordyn::bearing::{Bearing, LinearBearing, LinearBearingRow};
-use rotordyn::element::{Anchor, Joint, ShaftElement, ShearCoefficient};
-use rotordyn::model::study::{CampbellStudy, CriticalMapStudy, TorsionalStudy};
+use rotordyn::element::{Anchor, Bushing, Joint, RigidBody, ShaftElement, ShearCoefficient};
+use rotordyn::model::study::{CampbellStudy, CriticalMapStudy, CriticalStudy, TorsionalStudy};
 use rotordyn::model::{BearingSite, Drive, Model};
 use rotordyn::study::Machine;
 use std::f64::consts::{PI, TAU};
@@ -117,6 +119,81 @@ fn critical_speed_map_of_jeffcott_rotor() {
     assert_eq!(crossing.bearing, "A x, A y, B x, B y");
     agree::relative("stiffness of the crossing [N/m]", crossing.stiffness, 5e5, 1e-8);
     agree::relative("speed of the crossing [rad/s]", crossing.speed, closed(5e5), 4e-5);
+}
+
+/// Bearings in housings of small mass on springs that differ along x and y.
+fn in_housings(mut model: Model, nodes: [usize; 2], [k_x, k_y]: [f64; 2]) -> Machine {
+    for (node, name) in nodes.into_iter().zip(["A", "B"]) {
+        let body = model.node_z.len() + model.bodies.len();
+        let inertia = [[1e-6, 0.0, 0.0], [0.0, 1e-6, 0.0], [0.0, 0.0, 1e-6]];
+        let position = [0.0, 0.0, model.node_z[node]];
+        model.bodies.push(RigidBody { name: name.into(), position, mass: [1e-4; 3], inertia });
+        let mut stiffness = [[0.0; 6]; 6];
+        let diagonal = [k_x, k_y, 1e7, 1e5, 1e5, 1e5];
+        diagonal.into_iter().enumerate().for_each(|(i, k)| stiffness[i][i] = k);
+        let ends = [Anchor { node: Some(body), offset: [0.0; 3] }, Anchor { node: None, offset: position }];
+        let [a, b] = ends;
+        model.bushings.push(Bushing {
+            name: format!("foot {name}"),
+            a,
+            b,
+            stiffness,
+            damping: [[0.0; 6]; 6],
+        });
+        let housing = Anchor { node: Some(body), offset: [0.0; 3] };
+        model.bearings.push(BearingSite { housing, ..site(node, name, rows(&[0.0], |_| springs(1e7))) });
+    }
+    model.drive = Drive::Prescribed { node: Some(nodes[0]) };
+    Machine::new(model).unwrap()
+}
+
+/// A disc amid a light shaft in housings softer along x than along y: two criticals, of which neither whirls one way only,
+/// Ω² = k/m with 1/k = 1/(2 k_b) + 1/(2 k_h) + L³/(48 E I).
+#[test]
+fn critical_speed_map_has_the_modes_of_both_planes_of_unlike_housings() {
+    let mut model = shaft(bars(0.03, 1.0));
+    model.discs = vec![disc(10, 10.0, 0.02, 0.01)];
+    let [k_x, k_y] = [4e5, 2e6];
+    let machine = in_housings(model, [0, 20], [k_x, k_y]);
+    let shaft_stiffness = 48.0 * 2.1e11 * PI / 64.0 * 0.03_f64.powi(4);
+    let found = map(&machine, [1e3, 1e9], 600.0);
+    for (step, k) in found.stiffness.iter().enumerate() {
+        for housing in [k_x, k_y] {
+            let flexibility = 0.5 / k + 0.5 / housing + 1.0 / shaft_stiffness;
+            let expected = (1.0 / flexibility / 10.0).sqrt();
+            let at = found.curves.iter().map(|curve| curve.speeds[step]);
+            let nearest = at.min_by(|a, b| (a - expected).abs().total_cmp(&(b - expected).abs())).unwrap();
+            agree::relative("critical speed along x or y [rad/s]", nearest, expected, 1e-4);
+        }
+    }
+}
+
+/// An overhung disc in such housings, with modes of either whirl direction: no curve falls, begins or has a gap where the
+/// bearings become stiffer, and the lowest speed of unbalance is among them.
+#[test]
+fn curves_of_a_critical_speed_map_rise_whatever_the_whirl_direction() {
+    for k_y in [6e6, 2e7, 8e7] {
+        let mut model = shaft(bars(0.045, 7850.0));
+        model.discs = vec![disc(20, 12.0, 0.25, 0.13), disc(0, 4.0, 0.02, 0.011)];
+        let machine = in_housings(model, [3, 14], [5e6, k_y]);
+        let found = map(&machine, [1e5, 1e10], 6000.0);
+        assert!(found.curves.len() >= 4, "{} curves", found.curves.len());
+        for curve in &found.curves {
+            let finite = curve.speeds.iter().take_while(|speed| speed.is_finite()).count();
+            assert!(finite > 0 && curve.speeds[finite..].iter().all(|speed| speed.is_nan()), "{curve:?}");
+            let falls = |pair: &[f64]| pair[1] < pair[0] * (1.0 - 1e-9);
+            assert!(!curve.speeds[..finite].windows(2).any(falls), "{curve:?}");
+        }
+        // Bearings of 1e7 N/m at that stiffness of the map.
+        let study = CriticalStudy { max_speed: 6000.0, orders: vec![1.0] };
+        let critical = machine.critical(&study).unwrap();
+        let stiffness = found.stiffness.iter().position(|k| (k / 1e7 - 1.0).abs() < 1e-6).unwrap();
+        let lateral = |kind| !matches!(kind, ModeKind::Torsional | ModeKind::Axial);
+        for own in critical.crossings.list.iter().filter(|own| lateral(own.mode.kind)) {
+            let near = |curve: &MapCurve| (curve.speeds[stiffness] / own.speed - 1.0).abs() < 1e-6;
+            assert!(found.curves.iter().any(near), "{} rad/s, {}", own.speed, own.mode.label);
+        }
+    }
 }
 
 /// A rigid rotor on cross-coupled bearings k_xy = −k_yx = κΩ: m s² + c s + k − j κΩ = 0, unstable above c √(k/m)/κ.

@@ -63,13 +63,14 @@ impl Machine {
         let standstill = self.standstill_equilibrium.tangents();
         let rotor =
             SupportedRotor { assembly: &self.assembly, standstill: &standstill, max_speed: study.max_speed };
-        let curves = rotor.curves(&stiffness)?;
+        let tracked = rotor.curves(&stiffness)?;
         let mut crossings = Vec::new();
-        for curve in curves.iter().enumerate() {
+        for curve in &tracked {
             for bearing in &bearings {
                 crossings.extend(rotor.crossings(curve, &stiffness, bearing, &tangents)?);
             }
         }
+        let curves = tracked.into_iter().map(|tracked| tracked.curve).collect();
         crossings.sort_by(|a, b| a.speed.total_cmp(&b.speed));
         Ok(CriticalMap { max_speed: study.max_speed, stiffness, curves, speeds, bearings, crossings })
     }
