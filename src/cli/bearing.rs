@@ -36,12 +36,7 @@ pub fn run(args: &BearingArgs, terminal: &Terminal) -> Result<Outcome, Failure> 
             }
         }
     }
-    let text = ModelText {
-        model: &loaded.text,
-        title: &loaded.title,
-        estimated: String::new(),
-        measured_speed: None,
-    };
+    let text = ModelText { title: &loaded.title, estimated: String::new(), measured_speed: None };
     let start = Instant::now();
     let (bearings, complete) = compute(&loaded, terminal)?;
     let seconds = start.elapsed().as_secs_f64();

@@ -55,6 +55,12 @@ pub fn run(args: &ExportArgs, terminal: &Terminal) -> Result<Value, Failure> {
         let file = open_reader(&stored, limits())?;
         if file.contains("/time/t")? {
             store::warn_if_incomplete(&*file, terminal)?;
+            if !store::is_of(&*file, &origin) {
+                terminal.note(&format!(
+                    "the stored run ({}) belongs to another version of the model than the geometry, modes and FRFs beside it",
+                    stored.display()
+                ));
+            }
             let history = results_file::read_history(&stored, limits())?;
             let run = machine_records::run_records(&history, &machine.model)?;
             let options = Options { folder: &folder, number: args.number };

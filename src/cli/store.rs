@@ -17,11 +17,9 @@ use super::terminal::Terminal;
 
 pub use rotordyn::io::results_file::{FINISHED as FILE, UNFINISHED};
 
-/// Model text and title stored in a results file.
+/// Title of a model and where its data come from, stored in a results file.
 #[derive(Clone)]
 pub struct ModelText<'a> {
-    /// Text of the model file.
-    pub model: &'a str,
     pub title: &'a str,
     /// Bearings with estimated internal geometry, "name: how" a line.
     pub estimated: String,
@@ -37,7 +35,7 @@ pub fn estimated_lines<'b>(bearings: impl Iterator<Item = (&'b str, &'b str)>) -
 impl<'a> From<&'a Loaded> for ModelText<'a> {
     fn from(loaded: &'a Loaded) -> Self {
         let estimated = estimated_lines(loaded.model.estimated_geometries());
-        Self { model: &loaded.text, title: &loaded.model.title, estimated, measured_speed: None }
+        Self { title: &loaded.model.title, estimated, measured_speed: None }
     }
 }
 
@@ -77,8 +75,7 @@ pub fn open(
     }
     // Whatever the file is, reading it comes first, in a process of its own.
     let stored = open_reader(&path, limits())?;
-    let same = stored_origin(&*stored)
-        .is_ok_and(|other| other.text == text.model.as_bytes() && other.options == origin.options);
+    let same = is_of(&*stored, origin);
     let identity = results_file::stored_identity(&*stored)?;
     let current = results_file::schema(&*stored).is_ok_and(|schema| schema == results_file::SCHEMA);
     let reason = match (same, current, identity) {
@@ -104,6 +101,11 @@ pub fn open(
 pub fn extend(path: &Path, origin: &ModelSource) -> Result<Output, Failure> {
     let writer = ResultsWriter::extend(path, provenance(origin));
     Ok(Output { writer, earlier: EarlierFiles::default() })
+}
+
+/// Whether stored results are those of a model with its settings.
+pub fn is_of(stored: &dyn Reader, origin: &ModelSource) -> bool {
+    stored_origin(stored).is_ok_and(|other| other.text == origin.text && other.options == origin.options)
 }
 
 /// What the results of a model follow from.

@@ -337,7 +337,7 @@ pub fn run_up(terminal: &Terminal, found: &RunUpResult, check_seconds: f64, need
     terminal.print(&format!(
         "  {:.3} s simulated up to {:.1} rpm: {} steps{newton}, {} halved or rejected steps, {} samples",
         summary.end_time,
-        rpm(summary.top_speed()),
+        rpm(summary.fastest()),
         report.steps,
         report.halvings,
         report.samples

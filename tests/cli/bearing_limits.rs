@@ -21,6 +21,10 @@ fn alone(designation: &str, keys: &str) -> String {
     )
 }
 
+/// A fit too light for the speeds of a spindle.
+const SPINDLE_FIT: &str =
+    "fit = { shaft_interference = \"5 um\", shaft_bore = \"40 mm\", speed_growth = true }";
+
 fn has(warnings: &[String], text: &str) -> bool {
     warnings.iter().any(|w| w.contains(text))
 }
@@ -35,7 +39,7 @@ fn exceeded(document: &Value) -> Vec<String> {
 /// The list of limits says "exceeded" exactly where there is a warning of it.
 #[test]
 fn listed_limits_and_warnings_agree() {
-    const OF: [(&str, &str); 9] = [
+    const OF: [(&str, &str); 10] = [
         ("bearing-unloaded", "loaded balls"),
         ("static-load", "static safety"),
         ("static-load", "contact pressure"),
@@ -45,6 +49,7 @@ fn listed_limits_and_warnings_agree() {
         ("gyroscopic-sliding", "friction coefficient"),
         ("contact-angle-lost", "mean contact angle"),
         ("open-side", "balls on the open side"),
+        ("loose-ring", "interference of inner ring and shaft"),
     ];
     let cases = [
         ("6206", "", "0, -1000, 0 N", "3000 rpm"),
@@ -53,6 +58,7 @@ fn listed_limits_and_warnings_agree() {
         ("6206", "", "0, 0, 9000 N", "1000 rpm"),
         ("7206B", "ball_inertia = \"none\"", "0, -1000, 20 N", "1500 rpm"),
         ("7206B", "", "0, -300, 400 N", "9000 rpm"),
+        ("7014C", SPINDLE_FIT, "0, -300, 400 N", "25000 rpm"),
     ];
     let mut seen = std::collections::BTreeSet::new();
     for (designation, keys, load, speed) in cases {
@@ -352,4 +358,61 @@ fn speed_parameter_has_the_limit_of_the_kind() {
         assert!((speed["limit"].as_f64().unwrap() - limit).abs() < 1.0, "{speed}");
         assert_eq!(speed["state"], "within");
     }
+}
+
+/// P, P_0 and the load part of the friction hold the preload of a pair: they are those of two single rows under its force.
+#[test]
+fn preload_of_a_pair_counts_in_life_and_friction() {
+    let flags = ["--speed", "1000 rpm", "--sweep", "cage_angle=0 deg .. 1 deg", "--load"];
+    let none = "ball_inertia = \"none\"";
+    let pair = |force: &str| {
+        let keys = format!(
+            "{none}\narrangement = \"back_to_back\"\nrow_spacing = \"20 mm\"\npreload = {{ force = \"{force}\" }}"
+        );
+        found(&alone("7014C", &keys), "bearing", &[&flags[..], &["0, -30, 0 N"]].concat()).1
+    };
+    let row = |force: &str| {
+        let load = format!("0, -15, {force}");
+        found(&alone("7014C", none), "bearing", &[&flags[..], &[&load]].concat()).1
+    };
+    let number = |document: &Value, path: &str| document.pointer(path).and_then(Value::as_f64).unwrap();
+    let [life, point] = ["/bearings/0/point/life", "/bearings/0/point/friction"];
+    for force in ["2000 N", "20000 N"] {
+        let (pair, row) = (pair(force), row(force));
+        let ratio = |path: &str| number(&pair, path) / number(&row, path);
+        // Both rows; C_0 of two, of which each carries its own.
+        let friction = ratio(&format!("{point}/load"));
+        assert!((friction - 2.0).abs() < 0.02, "{force}: friction {friction}");
+        let safety = ratio(&format!("{life}/static_safety"));
+        assert!((safety - 1.0).abs() < 0.02, "{force}: static safety {safety}");
+        // L of two equal rows: 2^(-9/10).
+        let basic = ratio(&format!("{life}/basic"));
+        assert!((basic / 2f64.powf(-0.9) - 1.0).abs() < 0.05, "{force}: basic life {basic}");
+    }
+}
+
+/// Interference presses every ball: friction, static safety and life are those of a radial load that presses them as much.
+#[test]
+fn interference_counts_in_life_and_friction() {
+    let flags = ["--load", "0, -10, 0 N", "--speed", "1000 rpm", "--sweep", "cage_angle=0 deg .. 1 deg"];
+    let of = |clearance: &str| {
+        let keys = format!("radial_clearance = \"{clearance}\"\nball_inertia = \"none\"");
+        let (_, document) = found(&alone("6205", &keys), "bearing", &flags);
+        let at = |path: &str| document.pointer(path).and_then(Value::as_f64).unwrap();
+        [at("/bearings/0/point/life/basic"), at("/bearings/0/point/life/reference")]
+    };
+    let [basic, reference] = of("10 um");
+    assert!(basic > 1e8 && reference > 1e8, "{basic} {reference}");
+    // Every ball carries alike where a radial load would press the lowest most: the standards' lives differ by a small factor.
+    for clearance in ["-10 um", "-15 um", "-30 um"] {
+        let [basic, reference] = of(clearance);
+        assert!((0.1..10.0).contains(&(basic / reference)), "{clearance}: {basic} {reference}");
+    }
+}
+
+#[test]
+fn a_speed_above_that_of_its_kind_is_named_without_a_machine() {
+    let flags = |speed| ["--load", "0, -500, 0 N", "--speed", speed, "--sweep", "cage_angle=0 deg .. 1 deg"];
+    let warned = |speed| has(&found(&alone("6205", ""), "bearing", &flags(speed)).0, "n d_m");
+    assert!(warned("60000 rpm") && !warned("30000 rpm"));
 }

@@ -35,3 +35,33 @@ fn double_modes_are_planar_only_at_rest() {
         }
     }
 }
+
+/// Dampers that are not in proportion to the stiffness make the orbits of a shaft at rest ellipses: its modes are still those
+/// of two planes, each number once in each. Cross-coupled springs whirl at rest too.
+#[test]
+fn modes_at_rest_are_planar_whatever_the_damping() {
+    let text = include_str!("../../benches/rotor_40.toml");
+    let kinds = |text: &str, rpm: f64| {
+        let model = load("rotor.toml", text, &Options::default()).unwrap().model;
+        let machine = Machine::new(model).unwrap();
+        let system = machine.linear_system(rpm / 60.0 * TAU).unwrap();
+        let modes = modal::modes(&machine.assembly, &system, 8).unwrap();
+        let bending = modes.into_iter().filter(|mode| mode.kind.is_bending());
+        bending.map(|mode| (mode.kind, mode.label)).collect::<Vec<_>>()
+    };
+    let planar = |kind: &ModeKind| matches!(kind, ModeKind::PlaneX | ModeKind::PlaneY);
+    // Dampers that couple x and y in one bearing only.
+    let damped = text.replacen(
+        "c_xx = \"200 N s/m\"",
+        "c_xx = \"900 N s/m\"\nc_xy = \"400 N s/m\"\nc_yx = \"400 N s/m\"",
+        1,
+    );
+    let at_rest = kinds(&damped, 0.0);
+    assert!(at_rest.len() >= 6 && at_rest.iter().all(|(kind, _)| planar(kind)), "{at_rest:?}");
+    let labels: std::collections::BTreeSet<&String> = at_rest.iter().map(|(_, label)| label).collect();
+    assert_eq!(labels.len(), at_rest.len(), "{at_rest:?}");
+    assert!(kinds(&damped, 3000.0).iter().any(|(kind, _)| !planar(kind)));
+    let cross =
+        text.replacen("k_xx = \"1e6 N/m\"", "k_xx = \"1e6 N/m\"\nk_xy = \"4e5 N/m\"\nk_yx = \"-4e5 N/m\"", 1);
+    assert!(kinds(&cross, 0.0).iter().any(|(kind, _)| !planar(kind)));
+}

@@ -162,6 +162,25 @@ const SUPPORTS: &[Case] = &[
         };
         models(&of(10000.0), &of(20000.0))
     }),
+    (Code::LooseRing, || {
+        let of = |interference: &str| {
+            let fit = format!(
+                "thrust = \"+z\"\nfit = {{ shaft_interference = \"{interference}\", shaft_bore = \"40 mm\", speed_growth = true }}"
+            );
+            alone("7014C", &fit)
+        };
+        let flags =
+            ["--load", "0, -300, 1000 N", "--speed", "20000 rpm", "--sweep", "cage_angle=0 deg .. 1 deg"];
+        command("bearing", &of("30 um"), &of("5 um"), &flags)
+    }),
+    (Code::PreloadWithoutEffect, || {
+        let of =
+            |preload: &str| alone("7014C", &format!("thrust = \"+z\"\nball_inertia = \"none\"\n{preload}"));
+        let spring = "preload = { force = \"200 N\", stiffness = \"1e6 N/m\" }";
+        let flags =
+            ["--load", "0, -500, 600 N", "--speed", "100 rpm", "--sweep", "cage_angle=0 deg .. 1 deg"];
+        command("bearing", &of(spring), &of("preload = { force = \"200 N\" }"), &flags)
+    }),
     (Code::BallInertia, || {
         let mut spindle = machine("spindle_small");
         let plain = spindle.text();

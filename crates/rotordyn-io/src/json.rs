@@ -34,7 +34,7 @@ mod document;
 pub use document::{add_sections, document, groups};
 
 use rotordyn_core::document::{Document, Section};
-use rotordyn_core::results::{BearingResult, SignalResult, TrendResult};
+use rotordyn_core::results::{BearingPoint, BearingResult, SignalResult, TrendResult};
 use rotordyn_core::study::{Machine, Results};
 use rotordyn_core::warning::Warning;
 use serde_json::{Map, Value, json};
@@ -67,6 +67,20 @@ pub fn to_json(results: &Results, machine: &Machine) -> Value {
 /// Stand-alone ball bearings (no machine) as a document of the same schema.
 pub fn bearings_to_json(results: &Results, name: &str, title: &str) -> Value {
     let mut out = header(name, title);
+    let mut units: Map<String, Value> =
+        BearingPoint::units().map(|(name, unit)| (name.to_string(), unit.into())).collect();
+    for (quantity, unit) in [
+        ("load", "N, N m"),
+        ("displacement", "m, rad"),
+        ("stiffness", "N/m, N, N m/rad"),
+        ("angle", "rad"),
+        ("pressure", "Pa"),
+        ("geometry", "m, rad"),
+        ("rating", "N"),
+    ] {
+        units.insert(quantity.into(), unit.into());
+    }
+    out.insert("units".into(), units.into());
     let sections: Vec<Section> = results.bearings.iter().map(BearingResult::section).collect();
     add_sections(&mut out, &sections);
     out.entry("bearings").or_insert_with(|| json!([]));

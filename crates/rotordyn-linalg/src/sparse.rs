@@ -223,6 +223,14 @@ impl SparseMatrix {
         out.build()
     }
 
+    /// Whether |a_ij − a_ji| is at most this fraction of √|a_ii a_jj| everywhere.
+    pub fn is_symmetric(&self, tolerance: f64) -> bool {
+        let near = |(i, j, v): (usize, usize, f64)| {
+            (v - self.get(j, i)).abs() <= tolerance * (self.get(i, i) * self.get(j, j)).abs().sqrt()
+        };
+        self.rows == self.cols() && self.iter().all(near)
+    }
+
     /// Aᵀ.
     pub fn transposed(&self) -> SparseMatrix {
         let mut out = Triplets::new(self.cols(), self.rows);

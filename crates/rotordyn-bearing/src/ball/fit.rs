@@ -65,16 +65,27 @@ impl Fit {
 
     /// Fit pressure between shaft and bore \[Pa\] at a speed Ω \[rad/s\]; 0 after loosening by rotation.
     pub fn shaft_pressure(&self, geometry: &BallGeometry, materials: &FitMaterials, speed: f64) -> f64 {
-        let ring = Ring::inner(geometry);
-        let shaft = Ring { inside: 0.5 * self.shaft_bore, outside: ring.inside };
+        let [shaft, ring] = self.seat(geometry);
+        let compliance =
+            ring.inner_by_inside(1.0, materials.ring) - shaft.outer_by_outside(1.0, materials.shaft);
+        (0.5 * self.interference_left(geometry, materials, speed) / compliance).max(0.0)
+    }
+
+    /// Diametral interference of shaft and bore that rotation at a speed Ω \[rad/s\] leaves \[m\]; negative for play.
+    pub fn interference_left(&self, geometry: &BallGeometry, materials: &FitMaterials, speed: f64) -> f64 {
+        let [shaft, ring] = self.seat(geometry);
         let centrifugal_opening = if self.speed_growth {
             ring.inner_by_rotation(speed, materials.ring) - shaft.outer_by_rotation(speed, materials.shaft)
         } else {
             0.0
         };
-        let compliance =
-            ring.inner_by_inside(1.0, materials.ring) - shaft.outer_by_outside(1.0, materials.shaft);
-        ((0.5 * self.shaft_interference - centrifugal_opening) / compliance).max(0.0)
+        self.shaft_interference - 2.0 * centrifugal_opening
+    }
+
+    /// Shaft and inner ring.
+    fn seat(&self, geometry: &BallGeometry) -> [Ring; 2] {
+        let ring = Ring::inner(geometry);
+        [Ring { inside: 0.5 * self.shaft_bore, outside: ring.inside }, ring]
     }
 
     /// Fit pressure between outer ring and housing \[Pa\].

@@ -21,7 +21,8 @@ pub enum BallInertia {
     None,
     /// Two contact angles per ball; the outer race alone resists the gyroscopic moment: (f_i, f_o) = (0, 2) M/D.
     OuterRaceControl,
-    /// The inner race alone resists it: (2, 0) M/D.
+    /// The inner race alone resists it: (2, 0) M/D, save on balls whose inner contact carries less than the centrifugal
+    /// force: there it passes to the outer race.
     InnerRaceControl,
     /// Rolling on the inner race as under inner race control, both races resisting alike: (1, 1) M/D, Harris'
     /// λ_i = λ_o = 1 wherever the outer race does not control.
@@ -77,9 +78,12 @@ impl BallInertia {
         match self.in_effect() {
             Self::Auto(_) | Self::None => "none for massless balls",
             Self::OuterRaceControl => "outer race control, friction (inner, outer) = (0, 2) M/D",
-            Self::InnerRaceControl => "inner race control, friction (inner, outer) = (2, 0) M/D",
+            Self::InnerRaceControl => {
+                "inner race control, friction (inner, outer) = (2, 0) M/D, less at the inner race of balls with Q_i below F_c"
+            }
             Self::HarrisInnerRaceControl => {
-                "inner race control after Harris, friction (inner, outer) = (1, 1) M/D"
+                "inner race control after Harris, friction (inner, outer) = (1, 1) M/D, less at the inner race of balls \
+                 with Q_i below F_c"
             }
             Self::Shared => "shared control, friction in proportion to the contact loads, 2 M/D in all",
             Self::Centrifugal | Self::CentrifugalForce(_) => {

@@ -164,6 +164,14 @@ impl BallBearing {
     pub fn clearance_change(&self, speed: f64) -> f64 {
         self.fit.clearance_change(&self.geometry, &FitMaterials::all(&self.ring_material), speed)
     }
+
+    /// Diametral interference of shaft and inner ring that a speed Ω \[rad/s\] leaves of the stated one \[m\]; negative for
+    /// play. `None` without a stated interference.
+    pub fn interference_left(&self, speed: f64) -> Option<f64> {
+        let left =
+            || self.fit.interference_left(&self.geometry, &FitMaterials::all(&self.ring_material), speed);
+        (self.fit.shaft_interference > 0.0).then(left)
+    }
 }
 
 impl BallBearing {

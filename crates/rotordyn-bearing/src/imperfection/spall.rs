@@ -1,6 +1,7 @@
 //! Path of a ball over a spall: rolling over its rounded edges and, if it reaches it, along the floor.
 
 use crate::{BallGeometry, Surface};
+use std::f64::consts::FRAC_PI_2;
 
 /// Depth to which a round body sinks as it rolls over a pit (spall) in another round body.
 ///
@@ -11,8 +12,8 @@ use crate::{BallGeometry, Surface};
 ///
 /// H = 2 a sin²(φ/2) + x²/(T + √(T² − x²)), T = t + ρ, x = a sin φ, the root with the sign of T,
 ///
-/// the same from the other end, and no deeper than the floor: the minimum of the three is the envelope. The
-/// walls below the edges are never touched, as the body is much larger than the pit depth.
+/// the same from the other end, and no deeper than the floor: the minimum of the three is the envelope. An edge more than a
+/// quarter turn away is out of reach. The walls below the edges are never touched, as the body is much larger than the pit depth.
 ///
 /// Limits: H = 0 with zero slope at both ends; a flat surface and a sharp edge give t − √(t² − x²).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +65,9 @@ impl SpallPath {
 
     /// The same for one edge alone, at a length past its start; infinite where the body no longer touches it.
     fn edge_path(&self, length: f64) -> [f64; 2] {
+        if length > FRAC_PI_2 * self.surface {
+            return [f64::INFINITY, 0.0];
+        }
         let (sin, cos) = (length / self.surface).sin_cos();
         let half = (0.5 * length / self.surface).sin();
         let (a, t) = (self.edge, self.radius_sum);
@@ -155,6 +159,25 @@ mod tests {
             let off = (slope - pit.at(p)[1]).abs();
             // Differences of 1e-16 m over 1e-10 m; the corner at the floor and the middle lie between the points.
             assert!(off < 1e-5, "{p}: {slope} off by {off}");
+        }
+    }
+
+    /// Whether the other end is near or half a turn away, the ball goes over the near edge in the same way.
+    #[test]
+    fn the_far_edge_of_a_long_pit_is_out_of_reach() {
+        let (ball, inner, outer) = (6.15e-3, 20.0e-3, -32.3e-3);
+        for surface in [inner, outer] {
+            let of = |angle: f64| SpallPath::new(angle * f64::abs(surface), 20e-6, 0.1e-3, surface, ball);
+            let short = of(0.5);
+            for angle in [1.0, 2.0, 3.0, 3.14, 3.2, 5.0, 6.2] {
+                let long = of(angle);
+                for p in [1e-6, 1e-5, 1e-4, 1e-3] {
+                    assert_eq!(long.at(p), short.at(p), "{angle} rad, {p} m");
+                    let end = angle * f64::abs(surface) - p;
+                    assert!((long.at(end)[0] - short.at(p)[0]).abs() < 1e-15, "{angle} rad, {p} m");
+                }
+                assert_eq!(long.at(0.5 * angle * f64::abs(surface)), [20e-6, 0.0]);
+            }
         }
     }
 

@@ -154,6 +154,15 @@ impl BearingLoad<'_> {
                 "above it the gyroscopic moment turns the balls about the line of contact",
             )
         });
+        let fit = self.bearing.interference_left(self.speed).map(|left| {
+            check(
+                "interference of inner ring and shaft at speed",
+                [left, 0.0],
+                LEAST,
+                "m",
+                "below 0 rotation has loosened the ring, which creeps",
+            )
+        });
         let angle = self.mean_contact_angle().map(|mean| {
             check(
                 "mean contact angle by load",
@@ -191,6 +200,7 @@ impl BearingLoad<'_> {
             minimum,
             Some(speed),
             sliding,
+            fit,
             angle,
             open_side,
             fitted,

@@ -4,7 +4,7 @@ use super::life::reference_viscosity;
 use super::load_rating::STATIC_CONTACT_STRESS;
 use super::shoulder::{ShoulderMargin, shoulder_margin};
 use crate::contact::{ContactLaw, Race};
-use crate::{BallBearing, BallLoad};
+use crate::{BallBearing, BallInertia, BallLoad};
 use std::f64::consts::PI;
 use std::fmt::{self, Display, Formatter};
 
@@ -61,6 +61,8 @@ pub enum ExceededLimit {
     MinimumLoad { load: f64, minimum: f64 },
     /// Friction coefficient that the gyroscopic moment needs above the traction of the contact: the balls slide.
     GyroscopicSliding { coefficient: f64 },
+    /// Diametral play that rotation gives an inner ring fitted with interference \[m\].
+    LooseRing { interference: f64, play: f64 },
 }
 
 impl BearingLoad<'_> {
@@ -80,6 +82,7 @@ impl BearingLoad<'_> {
             self.open_side(),
             self.minimum_load(),
             self.gyroscopic_sliding(),
+            self.loose_ring(),
         ]
         .into_iter()
         .flatten()
@@ -182,8 +185,10 @@ impl BearingLoad<'_> {
         (load < minimum).then_some(ExceededLimit::MinimumLoad { load, minimum })
     }
 
-    /// μ = Σ 2 M/D / Σ Q_o with M/D = F_c sin α_o/5 on the outer race, over the balls that carry at the inner one: a
-    /// lightly loaded ball at the end of the loaded zone may slide for a moment.
+    /// μ = Σ 2 M/D / Σ Q with M/D = F_c sin α/5, Q and α of the race that resists the moment, over the balls that carry at the
+    /// inner one: a lightly loaded ball at the end of the loaded zone may slide for a moment.
+    ///
+    /// The outer race, or the inner one where it is stated to control: with all of the moment, or after Harris half of it.
     pub(super) fn gyroscopic_coefficient(&self) -> Option<f64> {
         let g = &self.bearing.geometry;
         if !self.bearing.inertia.has_moment() {
@@ -192,14 +197,29 @@ impl BearingLoad<'_> {
         let mass = self.bearing.ball_material.density * PI / 6.0 * g.ball_diameter.powi(3);
         let centrifugal = 0.5 * mass * g.pitch_diameter * self.cage_speed.powi(2);
         let carrying = || self.balls.iter().filter(|ball| ball.load > 0.0);
-        let friction: f64 =
-            carrying().map(|ball| 0.4 * centrifugal * ball.outer_contact_angle.sin().abs()).sum();
-        Some(friction / carrying().map(|ball| ball.outer_load).sum::<f64>())
+        let needed = |part: f64, angle: fn(&BallLoad) -> f64, load: fn(&BallLoad) -> f64| {
+            let friction: f64 =
+                carrying().map(|ball| part * 0.4 * centrifugal * angle(ball).sin().abs()).sum();
+            friction / carrying().map(load).sum::<f64>()
+        };
+        let outer = |part| needed(part, |ball| ball.outer_contact_angle, |ball| ball.outer_load);
+        let inner = |part| needed(part, |ball| ball.contact_angle, |ball| ball.load);
+        Some(match self.bearing.inertia.in_effect() {
+            BallInertia::InnerRaceControl => inner(1.0),
+            BallInertia::HarrisInnerRaceControl => inner(0.5).max(outer(0.5)),
+            _ => outer(1.0),
+        })
     }
 
     fn gyroscopic_sliding(&self) -> Option<ExceededLimit> {
         let coefficient = self.gyroscopic_coefficient()?;
         (coefficient > TRACTION).then_some(ExceededLimit::GyroscopicSliding { coefficient })
+    }
+
+    /// Play between shaft and inner ring that rotation makes of an interference.
+    fn loose_ring(&self) -> Option<ExceededLimit> {
+        let left = self.bearing.interference_left(self.speed).filter(|left| *left < 0.0)?;
+        Some(ExceededLimit::LooseRing { interference: self.bearing.fit.shaft_interference, play: -left })
     }
 
     /// Contacts with load, with their distance from the shoulder of the groove.
@@ -323,6 +343,13 @@ impl Display for ExceededLimit {
                 f,
                 "the gyroscopic moment of the balls needs a friction coefficient of {coefficient:.3}, above {TRACTION}: \
                  the balls slide, and the control hypothesis of ball_inertia is invalid; preload the bearing"
+            ),
+            Self::LooseRing { interference, play } => write!(
+                f,
+                "rotation widens the bore of the inner ring by more than the {:.1} um of its interference on the shaft: \
+                 {:.1} um of play, in which the ring moves and creeps; raise shaft_interference",
+                1e6 * interference,
+                1e6 * play
             ),
         }
     }

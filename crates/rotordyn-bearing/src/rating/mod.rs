@@ -6,6 +6,7 @@ pub mod life;
 pub mod limit_checks;
 pub mod limits;
 pub mod load_rating;
+pub mod row_load;
 pub mod shoulder;
 
 pub use friction::FrictionTorque;
@@ -15,4 +16,5 @@ pub use load_rating::{
     EquivalentLoad, LARGEST_RADIAL_ANGLE, LoadRating, STANDARD_OSCULATION, STATIC_CONTACT_STRESS,
     equivalent_load, static_equivalent_load, static_factor,
 };
+pub use row_load::RowLoad;
 pub use shoulder::{ShoulderMargin, shoulder_margin};

@@ -28,9 +28,15 @@ pub(super) fn modes_of(assembly: &Assembly, system: &LinearSystem, mut pairs: Ve
     align_double_modes(assembly, system, &mut pairs);
     let mut modes: Vec<Mode> =
         pairs.into_iter().map(|(value, shape)| mode_kind::characterise(assembly, value, shape)).collect();
+    if system.speed == 0.0 && system.stiffness.is_symmetric(SYMMETRIC) {
+        modes.iter_mut().for_each(mode_kind::name_by_plane);
+    }
     mode_kind::label(assembly, &mut modes);
     modes
 }
+
+/// Largest difference of two opposite entries of a symmetric stiffness, over those of the diagonal.
+const SYMMETRIC: f64 = 1e-6;
 
 /// Eigenvalue λ and shape φ over the free DOFs, φᴴ M φ = 1.
 pub(super) type Eigenpair = (Complex64, Vec<Complex64>);

@@ -117,6 +117,17 @@ fn classify(energy: &Energy, shaft: &[Complex64], whirl: &[f64]) -> ModeKind {
     }
 }
 
+/// Makes a whirling mode one of the plane with most of its energy.
+///
+/// A shaft at rest on a symmetric stiffness has no whirl direction: orbits that damping in proportion to nothing makes
+/// ellipses say none.
+pub(super) fn name_by_plane(mode: &mut Mode) {
+    if matches!(mode.kind, ModeKind::Forward | ModeKind::Backward | ModeKind::Mixed) {
+        let along_x = mode.energy.bending_x >= mode.energy.bending_y;
+        mode.kind = if along_x { ModeKind::PlaneX } else { ModeKind::PlaneY };
+    }
+}
+
 /// Labels modes sorted by frequency: "1st bending forward", "2nd torsional", "housing A, u_x"; for a rigid
 /// rotor "rigid-body" replaces "bending".
 ///

@@ -110,8 +110,10 @@ pub fn separation_margins(
                 operating.zip(amplification).map(|(speeds, factor)| required_separation(at, factor, speeds));
             // Modes too damped for a peak are known by their own half-width.
             let flat = 0.5 * pole.at / pole.half_width < CRITICALLY_DAMPED;
+            // Coupling that moves a torsional or axial mode next to nothing gives it no peak.
+            let is_lateral = !pole.kind.is_some_and(|kind| not_lateral.contains(&kind));
             let assessment = match (amplification, available.zip(required)) {
-                _ if !is_excited => Assessment::NotExcited,
+                _ if !is_excited || amplification.is_none() && !is_lateral => Assessment::NotExcited,
                 (Some(factor), _) if factor < CRITICALLY_DAMPED => Assessment::CriticallyDamped,
                 (None, _) if flat => Assessment::CriticallyDamped,
                 (None, _) => Assessment::NotResolved,
@@ -192,6 +194,16 @@ mod tests {
         assert_eq!(found.iter().map(|m| m.assessment).collect::<Vec<_>>(), expected);
         let without = separation_margins(&poles[..1], &peaks, |_| true, None);
         assert_eq!(without[0].assessment, Assessment::NoOperatingSpeed);
+    }
+
+    #[test]
+    fn an_axial_mode_without_a_peak_is_not_excited() {
+        let pole = |kind| Pole { kind: Some(kind), ..Pole::new(100.0, 1.0) };
+        let poles = [pole(ModeKind::Axial), pole(ModeKind::Torsional), pole(ModeKind::Forward)];
+        let assessed =
+            |pole: &Pole| separation_margins(std::slice::from_ref(pole), &[], |_| true, None)[0].assessment;
+        let expected = [Assessment::NotExcited, Assessment::NotExcited, Assessment::NotResolved];
+        assert_eq!(poles.each_ref().map(assessed), expected);
     }
 
     #[test]

@@ -345,8 +345,8 @@ impl BearingPoint {
         ("loaded_balls", "1", |p| p.loaded() as f64),
         ("largest_ball_load", "N", Self::largest_load),
         ("largest_pressure", "Pa", Self::largest_pressure),
-        ("minimum_film", "m", Self::minimum_film),
-        ("film_ratio", "1", |p| p.film_ratio),
+        ("minimum_film", "m", |p| if p.has_film() { p.minimum_film() } else { f64::NAN }),
+        ("film_ratio", "1", |p| if p.has_film() { p.film_ratio } else { f64::NAN }),
         ("preload_force", "N", |p| p.preload_force),
         ("equivalent_load", "N", |p| p.life.equivalent_load),
         ("radial_factor_x", "1", |p| p.life.factors[0]),
@@ -403,6 +403,16 @@ impl BearingPoint {
     pub fn minimum_film(&self) -> f64 {
         let films = self.contacts().filter(|c| c.load > 0.0).map(|c| c.minimum_film);
         films.reduce(f64::min).unwrap_or(0.0)
+    }
+
+    /// Whether a loaded contact has a film, as with a lubricant.
+    pub fn has_film(&self) -> bool {
+        self.minimum_film() > 0.0
+    }
+
+    /// Names and units of the single values of a point.
+    pub fn units() -> impl Iterator<Item = (&'static str, &'static str)> {
+        Self::COLUMNS.iter().map(|(name, unit, _)| (*name, *unit))
     }
 
     pub fn contacts(&self) -> impl Iterator<Item = &ContactState> {

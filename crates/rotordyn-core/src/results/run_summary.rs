@@ -54,7 +54,12 @@ impl RunSummary {
 
     /// Highest magnitude of the speed \[rad/s\].
     pub fn top_speed(&self) -> f64 {
-        self.speed_range.map_or(0.0, |[low, high]| low.abs().max(high.abs()))
+        self.fastest().abs()
+    }
+
+    /// The speed of highest magnitude \[rad/s\], negative of a shaft that turns backward.
+    pub fn fastest(&self) -> f64 {
+        self.speed_range.map_or(0.0, |[low, high]| if low.abs() > high.abs() { low } else { high })
     }
 
     /// What is written beside the streamed samples.

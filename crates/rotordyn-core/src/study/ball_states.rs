@@ -57,17 +57,24 @@ pub(super) fn ball_states(
     states.collect()
 }
 
-/// Friction torque of a bearing under a radial and an axial load \[N\] at a speed \[rad/s\]; of a pair, that of both rows.
+/// Friction torque of a bearing under the forces of its rows, F_r and F_a \[N\], at a speed \[rad/s\].
+///
+/// `row_rating`: static load rating of one row \[N\].
 pub(super) fn friction_torque(
     bearing: &BallBearing,
-    static_rating: f64,
-    [radial, axial]: [f64; 2],
+    row_rating: f64,
+    rows: &[[f64; 2]],
     speed: f64,
     balls: &[BallState],
 ) -> FrictionTorque {
     let g = &bearing.geometry;
-    let rows = if bearing.duplex.is_some() { 2.0 } else { 1.0 };
-    let [load, load_factor] = friction::load_torque(g, static_rating, radial, axial);
+    let of_row = |&[radial, axial]: &[f64; 2]| friction::load_torque(g, row_rating, radial, axial);
+    let of_rows: Vec<[f64; 2]> = rows.iter().map(of_row).collect();
+    let load: f64 = of_rows.iter().map(|[torque, _]| torque).sum();
+    // That of the row with the larger torque.
+    let of_most = of_rows.iter().copied().max_by(|a, b| a[0].total_cmp(&b[0]));
+    let load_factor = of_most.map_or(0.0, |[_, factor]| factor);
+    let rows = rows.len() as f64;
     let (oil, sliding_friction) = (bearing.lubricant(), bearing.service.sliding_friction);
     let factor = bearing.service.lubrication.viscous_factor(g);
     let viscous =

@@ -19,8 +19,8 @@ use operating_point::{OperatingPoint, SingleBearingStudy, cage_treatment};
 use rotordyn_bearing::contact::{BallContacts, ContactLaw};
 use rotordyn_bearing::free_ball::FreeBallBearing;
 use rotordyn_bearing::rating::LoadRating;
-use rotordyn_bearing::rating::limit_checks::GREASE_SPEED_PARAMETER;
-use rotordyn_bearing::{BallBearing, Preload, PreloadState, kinematics};
+use rotordyn_bearing::rating::limit_checks::{GREASE_SPEED_PARAMETER, speed_limit, speed_parameter};
+use rotordyn_bearing::{Arrangement, BallBearing, Preload, PreloadState, kinematics};
 use std::ops::ControlFlow;
 
 /// Points of a sweep over a default range.
@@ -99,7 +99,9 @@ pub fn single_bearings(
         let decided = work.decided();
         let work = SingleBearingStudy::new(name, &decided, study);
         let operating = work.operating();
-        work.study(operating)
+        let mut found = work.study(operating)?;
+        found.warnings.extend(work.too_fast());
+        Ok(found)
     };
     bearings.iter().filter(|(name, _)| is_requested(study, name)).map(one).collect()
 }
@@ -156,6 +158,34 @@ impl<'a> SingleBearingStudy<'a> {
         }
     }
 
+    /// A rigid preload of a ring that an axial load moves.
+    fn preload_without_effect(&self, operating: &OperatingPoint) -> Option<Warning> {
+        let rigid = !matches!(self.bearing.preload, Preload::None | Preload::Spring { .. });
+        // Opposed rows hold their preload between them.
+        let opposed = self.bearing.duplex.is_some_and(|pair| pair.arrangement != Arrangement::Tandem);
+        if !rigid || opposed || operating.prescribed[2].is_some() {
+            return None;
+        }
+        let text = format!(
+            "bearing {}: its inner ring is free axially under the load of {} N along z, so that its rigid preload has no effect",
+            self.name, operating.load[2]
+        );
+        Some(Warning::new(Code::PreloadWithoutEffect, format!("bearing.{}", self.name), text))
+    }
+
+    /// Speed parameter above that of its kind.
+    fn too_fast(&self) -> Option<Warning> {
+        let [found, limit] = [speed_parameter(self.bearing, self.speed), speed_limit(self.bearing)];
+        let text = || {
+            format!(
+                "bearing {} turns at n d_m = {found:.3e} mm rpm ({:.0} rpm), above the {limit:.1e} mm rpm of its kind",
+                self.name,
+                self.speed * TO_RPM
+            )
+        };
+        (found > limit).then(|| Warning::new(Code::BearingSpeed, format!("bearing.{}", self.name), text()))
+    }
+
     /// Ratings of all rows together.
     fn rating(&self) -> LoadRating {
         self.rating.rating
@@ -172,6 +202,7 @@ impl<'a> SingleBearingStudy<'a> {
         let state = self.solver.solve(&condition, None)?;
         let point = self.point(state);
         let mut warnings = self.warnings(&point);
+        warnings.extend(self.preload_without_effect(&operating));
         let limits = self.limit_checks(&point);
         let ball_inertia = self.inertia_use(&point);
         warnings.extend(ball_inertia.warning());
@@ -341,10 +372,11 @@ impl<'a> SingleBearingStudy<'a> {
         let speed = state.condition.speed;
         let loads = self.solver.ball_loads(&state);
         let balls = ball_states(self.bearing, &self.contacts, &loads, speed);
-        let [x, y, z, ..] = state.load;
+        let [x, y, ..] = state.load;
         let radial = x.hypot(y);
-        let static_rating = self.rating().static_rating;
-        let friction = friction_torque(self.bearing, static_rating, [radial, z], speed, &balls);
+        let rows = self.rating.row_forces(&state, &loads);
+        let row_rating = self.rating().static_rating / rows.len() as f64;
+        let friction = friction_torque(self.bearing, row_rating, &rows, speed, &balls);
         let along =
             if radial > 0.0 { [x / radial, y / radial, 0.0, 0.0, 0.0] } else { [1.0, 0.0, 0.0, 0.0, 0.0] };
         let axis = [0.0, 0.0, 1.0, 0.0, 0.0];

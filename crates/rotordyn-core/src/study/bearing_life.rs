@@ -8,9 +8,9 @@ use rotordyn_bearing::life::{
     basic_life, combined_life, life_modification, reference_life, reference_viscosity, reliability_factor,
 };
 use rotordyn_bearing::rating::{
-    EquivalentLoad, LARGEST_RADIAL_ANGLE, LoadRating, equivalent_load, static_equivalent_load,
+    EquivalentLoad, LARGEST_RADIAL_ANGLE, LoadRating, RowLoad, equivalent_load, static_equivalent_load,
 };
-use rotordyn_bearing::{Arrangement, BallBearing, BallInertia, BallLoad, Imperfections, Preload};
+use rotordyn_bearing::{Arrangement, BallBearing, BallInertia, BallLoad, Imperfections, Preload, kinematics};
 
 /// Ratings of one bearing, and the solver for the load distribution of ISO/TS 16281.
 pub(super) struct BearingRating<'a> {
@@ -54,16 +54,63 @@ impl<'a> BearingRating<'a> {
         }
     }
 
+    /// F_r and F_a of every row \[N\]: of a pair those of the balls' loads, which hold its preload; of a single row those of
+    /// the state, with the radial load that interference amounts to.
+    pub fn row_forces(&self, state: &BearingEquilibrium, balls: &[BallLoad]) -> Vec<[f64; 2]> {
+        if self.arrangement.is_some() {
+            return RowLoad::of_rows(2, balls).iter().map(RowLoad::forces).collect();
+        }
+        let [x, y, z, ..] = state.load;
+        vec![[x.hypot(y).max(self.interference_load(state, balls)), z]]
+    }
+
+    /// Radial load that presses the balls of a single row as interference does \[N\]; 0 with clearance.
+    fn interference_load(&self, state: &BearingEquilibrium, balls: &[BallLoad]) -> f64 {
+        let mounted = kinematics::mounted_geometry(self.bearing, state.condition.speed);
+        if self.arrangement.is_some() || mounted.radial_clearance >= 0.0 {
+            return 0.0;
+        }
+        RowLoad::of_rows(1, balls).iter().map(RowLoad::equivalent_of_interference).sum()
+    }
+
+    /// P and P_0 of ISO 281 and ISO 76 under the load of a state, at least those that preload and interference amount to.
+    ///
+    /// The equivalent loads of the standards hold external loads only. Rows of a pair: P_k of each under its own forces and
+    /// C_k = C/2^0.7 give the load C/L^⅓ of the life L of both, and P_0 = 2 max P_0k.
+    fn equivalent_loads(&self, state: &BearingEquilibrium, balls: &[BallLoad]) -> (EquivalentLoad, f64) {
+        let g = &self.bearing.geometry;
+        let [x, y, z, ..] = state.load;
+        let radial = x.hypot(y);
+        let mut equivalent = equivalent_load(g, self.arrangement, radial, z);
+        let mut static_load = static_equivalent_load(g, self.arrangement, radial, z);
+        if self.arrangement.is_some() {
+            let rows = RowLoad::of_rows(2, balls);
+            if !rows.iter().all(RowLoad::is_preloaded) {
+                return (equivalent, static_load);
+            }
+            let rows: Vec<[f64; 2]> = rows.iter().map(RowLoad::forces).collect();
+            let row_rating = self.rating.dynamic / 2f64.powf(0.7);
+            let life =
+                |&[radial, z]: &[f64; 2]| basic_life(row_rating, equivalent_load(g, None, radial, z).load);
+            let both = combined_life(&rows.iter().map(life).collect::<Vec<_>>());
+            let of_row = |&[radial, z]: &[f64; 2]| static_equivalent_load(g, None, radial, z);
+            equivalent.load = equivalent.load.max(self.rating.dynamic / both.cbrt());
+            static_load = static_load.max(2.0 * rows.iter().map(of_row).fold(0.0, f64::max));
+        } else {
+            let interference = self.interference_load(state, balls);
+            equivalent.load = equivalent.load.max(interference);
+            static_load = static_load.max(interference);
+        }
+        (equivalent, static_load)
+    }
+
     /// Rating lives and static safety under a load; the load is stationary, the inner ring rotates.
     ///
     /// `balls`: ball loads of the bearing in equilibrium.
     pub fn life(&self, state: &BearingEquilibrium, balls: &[BallLoad]) -> BearingLife {
         let g = &self.bearing.geometry;
-        let [x, y, z, ..] = state.load;
-        let radial = x.hypot(y);
         let rating = &self.rating;
-        let equivalent = equivalent_load(g, self.arrangement, radial, z);
-        let static_load = static_equivalent_load(g, self.arrangement, radial, z);
+        let (equivalent, static_load) = self.equivalent_loads(state, balls);
         let reference = self.standard_loads(state).map_or(f64::NAN, |loads| self.reference(&loads));
         let reference_load = rating.dynamic / reference.cbrt();
         let speed = state.condition.speed.abs();

@@ -30,6 +30,7 @@ pub mod signal;
 mod speed_cache;
 mod steady_motion;
 mod step_error;
+mod strongest_orders;
 mod torsional;
 pub mod trend;
 mod unbalance_comparison;

@@ -5,14 +5,16 @@
 //! would fold into the lines; a single step to a sample is doubled and every second sample taken. Explicit steps of that
 //! length may be unstable: half the step there.
 
+use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 use serde::{Deserialize, Serialize};
 
 use super::Machine;
 use super::order_tracking::is_selected;
 use super::probe_filter::ProbeFilter;
+use super::strongest_orders::strongest_orders;
 use crate::model::Quantity;
 use crate::model::study::{Integrator, RunUpStudy};
 use crate::results::{History, HistoryChannel, StepError, StepErrorLine};
@@ -35,6 +37,8 @@ const VALUES_AT_ONCE: usize = 1 << 16;
 /// Fewest samples of an interval, and fewest cycles of an order in the stretch.
 const FEWEST_SAMPLES: usize = 16;
 const FEWEST_CYCLES: f64 = 4.0;
+/// Highest line looked for, as a share of the sampling rate.
+const HIGHEST_SHARE: f64 = 0.125;
 /// Lines below this share of their channel's largest level, or of the RMS value of its vibration, are left out.
 const SMALLEST_SHARE: f64 = 0.01;
 const SMALLEST_SHARE_OF_VIBRATION: f64 = 1e-3;
@@ -119,8 +123,20 @@ impl Machine {
         let stretch_angle = history.angle.read(first..end + 1)?;
         let turned = stretch_angle[end - first] - stretch_angle[0];
         let revolutions = turned.abs() / TAU;
-        let orders: Vec<f64> =
+        let mut orders: Vec<f64> =
             orders.iter().copied().filter(|order| order * revolutions >= FEWEST_CYCLES).collect();
+        let channels = &history.channels[..probes];
+        let shown = self.shown_channels(channels);
+        if self.model.studies.orders.is_none() {
+            orders.extend(self.strongest_orders(
+                &stretch_angle,
+                &orders,
+                channels,
+                &shown,
+                first..end + 1,
+            )?);
+            orders.retain(|order| order * revolutions >= FEWEST_CYCLES);
+        }
         if orders.is_empty() {
             return Ok(None);
         }
@@ -163,7 +179,6 @@ impl Machine {
         let order = if explicit { 4 } else { 2 };
         let factor = 1.0 / (ratio.powi(order) - 1.0);
         let record = |channel: &HistoryChannel| Ok(at_samples(&channel.values.read(first..end + 1)?));
-        let channels = &history.channels[..probes];
         let records = channels.iter().map(record).collect::<Result<Vec<_>, SeriesError>>()?;
         let largest_with = |unit: &str| {
             let of_unit = channels.iter().zip(&records).filter(|(channel, _)| channel.unit == unit);
@@ -175,7 +190,6 @@ impl Machine {
         };
         let (own_levels, other_levels) = (levels(&own_angle, &records), levels(&angle, &values));
         let mean_speed = turned.abs() / (time_end - time_first);
-        let shown = self.shown_channels(channels);
         let mut lines = Vec::new();
         for (k, (channel, record)) in channels.iter().zip(&records).enumerate().filter(|(k, _)| shown[*k]) {
             let vibration = variance(record).sqrt();
@@ -207,6 +221,29 @@ impl Machine {
         }))
     }
 
+    /// Orders of the strongest line of each checked channel in a stretch, beside those known; up to an eighth of the sampling
+    /// rate.
+    fn strongest_orders(
+        &self,
+        angle: &[f64],
+        known: &[f64],
+        channels: &[HistoryChannel],
+        shown: &[bool],
+        stretch: Range<usize>,
+    ) -> Result<Vec<f64>, SeriesError> {
+        let read = channels.iter().zip(shown).filter(|(_, shown)| **shown);
+        let records: Vec<Cow<'_, [f64]>> =
+            read.map(|(channel, _)| channel.values.read(stretch.clone())).collect::<Result<_, _>>()?;
+        let turns = (angle[angle.len() - 1] - angle[0]).abs() / TAU;
+        let highest = HIGHEST_SHARE * (angle.len() - 1) as f64 / turns;
+        let mut bases = vec![1.0];
+        for ball in self.model.bearings.iter().filter_map(|site| site.bearing.ball()) {
+            let orders = ball.geometry.characteristic_orders(ball.geometry.contact_angle);
+            bases.extend([orders.bpfo, orders.bpfi, orders.bsf]);
+        }
+        Ok(strongest_orders(angle, records.iter().map(|record| &**record), known, &bases, highest))
+    }
+
     /// Which channels are checked: those of the order cuts, if there are probes among them.
     fn shown_channels(&self, channels: &[HistoryChannel]) -> Vec<bool> {
         let names = self.model.studies.orders.as_ref().map_or(&[][..], |study| &study.channels);
@@ -214,7 +251,8 @@ impl Machine {
         if shown.contains(&true) { shown } else { vec![true; channels.len()] }
     }
 
-    /// Orders whose levels are checked: those of the order cuts, or 1x, 2x and the outer race of every bearing.
+    /// Orders whose levels are checked: those of the order cuts, or 1x, 2x and the outer race of every bearing, to which the
+    /// estimate adds the strongest line of each channel.
     pub fn checked_orders(&self) -> Vec<f64> {
         if let Some(study) = &self.model.studies.orders {
             return study.cuts.clone();

@@ -82,7 +82,7 @@ codes! {
         "A material, lubricant or other item of the file is used by nothing: often a misspelt name elsewhere.",
         "remove it, or refer to it where it was meant";
     DefectGeometry, "defect-geometry", Caution,
-        "A defect of a bearing is wider than one contact, or deeper than a ball can reach.",
+        "A defect of a bearing is wider than one contact, much narrower than a loaded contact, or deeper than a ball can reach.",
         "check width and depth of the defect";
     LeftOut, "left-out", Caution,
         "Part of a file was not read: links that lead nowhere or to other files, types that are neither numbers nor texts, \
@@ -136,6 +136,14 @@ codes! {
     GyroscopicSliding, "gyroscopic-sliding", Caution,
         "The gyroscopic moment of the balls needs more friction than the contacts have: the balls slide.",
         "raise the axial preload, or lower the speed";
+    LooseRing, "loose-ring", Caution,
+        "At speed the bore of an inner ring grows by more than its interference on the shaft: it has play and creeps, and the \
+         bearing is not held as the model has it.",
+        "raise shaft_interference, or lower the speed";
+    PreloadWithoutEffect, "preload-without-effect", Serious,
+        "A rigid preload is stated for a bearing whose inner ring is free to move axially under its load: the ring moves until \
+         the balls carry that load alone, whatever the preload.",
+        "hold u_z (`constrained`), state the load without its axial part, or take a spring preload";
     BallInertia, "ball-inertia", Caution,
         "Balls are taken as massless although their centrifugal force changes contact angles and stiffness.",
         "use ball_inertia = \"auto\"";

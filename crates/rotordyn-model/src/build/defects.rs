@@ -174,6 +174,9 @@ fn defect(d: &Reader, g: &BallGeometry, pair: bool) -> Option<Defect> {
     Some(out)
 }
 
+/// Width of a defect over the ball's diameter below which the contact of a loaded ball bridges it.
+const SMALLEST_WIDTH: f64 = 2e-3;
+
 /// Geometric feasibility check of a defect, with warnings about parts that the balls do not reach.
 fn check_feasibility(d: &Reader, g: &BallGeometry, defect: &Defect) {
     let problem = |kind, key: &dyn Declared, message: String| Problem::new(kind, &d.span_of(key), message);
@@ -220,6 +223,17 @@ fn check_feasibility(d: &Reader, g: &BallGeometry, defect: &Defect) {
             return;
         }
         _ => {}
+    }
+    if defect.width > 0.0 && defect.width < SMALLEST_WIDTH * g.ball_diameter {
+        let message = format!("{} is much narrower than a loaded contact", d.name(&DEFECT.width));
+        let least = format!("{:.3} mm or more", mm(SMALLEST_WIDTH * g.ball_diameter));
+        d.log.warn(
+            Code::DefectGeometry,
+            d.path.clone(),
+            problem(Kind::Geometry, &DEFECT.width, message)
+                .expected(least)
+                .hint("check its unit; steps of a run become as short as the passage over it"),
+        );
     }
     let (room, what) = match defect.surface {
         Surface::Ball(_) => (PI, "both races at once"),

@@ -171,5 +171,6 @@ fn code(limit: &ExceededLimit) -> Code {
         ExceededLimit::OpenSide { .. } => Code::OpenSide,
         ExceededLimit::MinimumLoad { .. } => Code::MinimumLoad,
         ExceededLimit::GyroscopicSliding { .. } => Code::GyroscopicSliding,
+        ExceededLimit::LooseRing { .. } => Code::LooseRing,
     }
 }
