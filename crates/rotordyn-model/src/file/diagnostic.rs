@@ -5,6 +5,7 @@ use rotordyn_units::names::nearest;
 use std::cell::{Cell, RefCell};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
+use std::rc::Rc;
 
 /// A text that was read: the model file, or one `--set` argument.
 #[derive(Clone, Debug, PartialEq)]
@@ -241,7 +242,7 @@ pub(crate) struct Log {
     /// Tables of the file with errors, whose consequences are not reported.
     causes: RefCell<HashSet<String>>,
     /// Starts of the items that a variant adds, with the names of the others of the kind.
-    added_items: RefCell<HashMap<usize, Vec<String>>>,
+    added_items: RefCell<HashMap<usize, Rc<str>>>,
     warnings: RefCell<Vec<Problem>>,
     hints: RefCell<Vec<Problem>>,
     conflicts: RefCell<Vec<Problem>>,
@@ -270,12 +271,12 @@ impl Log {
     }
 
     /// Record an item that a variant adds to others, of which it may be a misspelling.
-    pub fn add_item(&self, start: usize, others: Vec<String>) {
+    pub fn add_item(&self, start: usize, others: Rc<str>) {
         self.added_items.borrow_mut().insert(start, others);
     }
 
     /// Names of the other items of the kind, if a variant adds the item whose name starts there.
-    pub fn others_of_added_item(&self, start: usize) -> Option<Vec<String>> {
+    pub fn others_of_added_item(&self, start: usize) -> Option<Rc<str>> {
         self.added_items.borrow().get(&start).cloned()
     }
 

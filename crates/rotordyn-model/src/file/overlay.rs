@@ -8,6 +8,7 @@ use super::tree::{Entry, Node, Table, Value};
 use rotordyn_units::names::folder_problem;
 use std::collections::HashMap;
 use std::ops::Range;
+use std::rc::Rc;
 
 /// Tables whose entries are named items: `bearing.B`, `housing.A`.
 pub(crate) const COLLECTIONS: &[&str] = &[
@@ -199,17 +200,27 @@ fn remove(root: &mut Table, list: &Entry, log: &Log) {
     }
 }
 
+/// Most names of other items in a message.
+const MAX_NAMES: usize = 12;
+
 /// Records the items that a variant adds to others of their kind: they may be misspelt.
 fn note_added_items(root: &Table, overrides: &Table, log: &Log) {
     for kind in COLLECTIONS {
-        let items = |table: &'_ Table| match table.get(kind).map(|entry| &entry.node.value) {
-            Some(Value::Table(items)) => Some(items.clone()),
-            _ => None,
-        };
-        let (Some(known), Some(given)) = (items(root), items(overrides)) else { continue };
+        let (Some(known), Some(given)) = (items(root, kind), items(overrides, kind)) else { continue };
+        let mut names: Vec<&str> = known.keys().take(MAX_NAMES).collect();
+        names.extend((known.entries().len() > MAX_NAMES).then_some("..."));
+        let names: Rc<str> = names.join(", ").into();
         for entry in given.entries().iter().filter(|entry| known.get(&entry.key).is_none()) {
-            log.add_item(entry.key_span.start, known.keys().map(String::from).collect());
+            log.add_item(entry.key_span.start, Rc::clone(&names));
         }
+    }
+}
+
+/// The named tables of a kind.
+fn items<'t>(table: &'t Table, kind: &str) -> Option<&'t Table> {
+    match table.get(kind).map(|entry| &entry.node.value) {
+        Some(Value::Table(items)) => Some(items),
+        _ => None,
     }
 }
 

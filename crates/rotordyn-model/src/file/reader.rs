@@ -6,6 +6,7 @@
 
 use super::diagnostic::{Kind, Log, Problem};
 use super::key::{Absent, Count, Declared, Flag, Key, SubTable, Table as Declaration, Text, Texts, Words};
+use super::synonyms::key_of_synonym;
 use super::tree::{Entry, Node, Table, Value};
 use rotordyn_units::names::nearest;
 use std::cell::RefCell;
@@ -40,40 +41,6 @@ struct Requested {
 
 /// Most unknown keys of a table that are reported one by one: fewer than a person reads, and than the program prints.
 const MAX_UNKNOWN: usize = 20;
-
-/// Other names of tables and keys, with those of the file.
-const SYNONYMS: [(&str, &str); 30] = [
-    ("E", "young"),
-    ("G", "shear"),
-    ("nu", "poisson"),
-    ("rho", "density"),
-    ("diameter", "outer_diameter"),
-    ("type", "model"),
-    ("kind", "model"),
-    ("mass", "disc"),
-    ("impeller", "disc"),
-    ("spring", "bushing"),
-    ("damper", "bushing"),
-    ("pedestal", "housing"),
-    ("support", "housing"),
-    ("force", "load"),
-    ("wave_spring", "bearing"),
-    ("preload", "bearing"),
-    ("simulation", "study"),
-    ("analysis", "study"),
-    ("k_tx", "k_tilt_x"),
-    ("k_ty", "k_tilt_y"),
-    ("k_tz", "k_spin"),
-    ("k_rx", "k_tilt_x"),
-    ("k_ry", "k_tilt_y"),
-    ("k_rz", "k_spin"),
-    ("c_tx", "c_tilt_x"),
-    ("c_ty", "c_tilt_y"),
-    ("c_tz", "c_spin"),
-    ("c_rx", "c_tilt_x"),
-    ("c_ry", "c_tilt_y"),
-    ("c_rz", "c_spin"),
-];
 
 static EMPTY_TABLE: LazyLock<Table> = LazyLock::new(Table::default);
 
@@ -212,8 +179,7 @@ impl<'a> Reader<'a> {
         // an item that only the variant has is rather a misspelt one than one without its keys
         let (kind, name) = self.path.split_once('.').unwrap_or(("item", &self.path));
         let problem = Problem::new(Kind::UnknownName, &self.span, format!("unknown {kind} `{name}`"));
-        let known = others.join(", ");
-        self.log.error_once(problem.hint(format!("known here: {known}; a new {kind} needs {add}")));
+        self.log.error_once(problem.hint(format!("known here: {others}; a new {kind} needs {add}")));
     }
 
     fn missing_message(&self, key: &str) -> String {
@@ -436,17 +402,20 @@ impl<'a> Reader<'a> {
     /// depend on a choice that is missing.
     pub fn finish(self) {
         let requested = self.requested_keys.borrow();
+        let unknown: Vec<&Entry> =
+            self.table.entries().iter().filter(|e| !requested.known.contains(&e.key)).collect();
+        if unknown.is_empty() {
+            return;
+        }
         let known: Vec<&str> = requested.names.iter().map(String::as_str).collect();
         let declared = self.declared_names();
         let choices = self.open_choices.borrow();
-        let unknown: Vec<&Entry> =
-            self.table.entries().iter().filter(|e| !requested.known.contains(&e.key)).collect();
         let is_open = !choices.is_empty()
             && (!self.has_no_errors() || unknown.iter().any(|e| !declared.contains(&e.key.as_str())));
         let mut unknown = unknown.into_iter().filter(|e| !is_open || !declared.contains(&e.key.as_str()));
         for entry in unknown.by_ref().take(MAX_UNKNOWN) {
-            let synonym = SYNONYMS.iter().find(|(other, key)| *other == entry.key && known.contains(key));
-            let meant = synonym.map(|(_, key)| *key).or_else(|| nearest(&entry.key, known.iter().copied()));
+            let synonym = key_of_synonym(&entry.key, &known);
+            let meant = synonym.or_else(|| nearest(&entry.key, known.iter().copied()));
             if let Some(meant) = meant {
                 self.retract_missing(meant, &choices);
             }
@@ -454,11 +423,9 @@ impl<'a> Reader<'a> {
             let problem = Problem::new(Kind::UnknownKey, &entry.key_span, message);
             let command = format!("rotordyn help {}", self.declared_path);
             let all_keys = format!("; `{}` explains them", command.trim_end());
-            let problem = match entry.node.value {
-                _ if synonym.is_some() => {
-                    problem.hint(synonym.map_or(String::new(), |(_, key)| format!("did you mean `{key}`?")))
-                }
-                Value::Table(_) | Value::List(_) if self.path.is_empty() => {
+            let problem = match (synonym, &entry.node.value) {
+                (Some(key), _) => problem.hint(format!("did you mean `{key}`?")),
+                (None, Value::Table(_) | Value::List(_)) if self.path.is_empty() => {
                     problem.suggest_all(&entry.key, &declared)
                 }
                 _ => problem.suggest(self.log, &entry.key, known.iter().copied()),
