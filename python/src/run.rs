@@ -13,7 +13,7 @@ use rotordyn::study::{Checkpoints, Recorder};
 use rotordyn::transient::run::{End, Sample};
 use rotordyn::warning::{Code, Warning};
 
-use crate::cli::args::{Command, StoredArgs};
+use crate::cli::args::Command;
 use crate::cli::failure::Failure;
 use crate::cli::machine::ModelSource;
 use crate::cli::settings::{self, Settings};
@@ -167,19 +167,23 @@ fn analysed(
     Ok(StudyResults { study, results, machine, file, known_warnings, stopped: run.stopped })
 }
 
-fn stored_args(flags: &[String], name: &str) -> Result<StoredArgs, Failure> {
+/// The command `name` with flags.
+fn command_of(name: &str, flags: &[String]) -> Result<Command, Failure> {
     let words: Vec<String> = std::iter::once(name.to_string()).chain(flags.iter().cloned()).collect();
-    match parsed(&words)? {
-        Command::Spectrogram(args) | Command::Orders(args) => Ok(args),
-        _ => Err(Failure::Input("this command analyses no run-up".into())),
-    }
+    parsed(&words)
+}
+
+fn no_analysis() -> Failure {
+    Failure::Input("this command analyses no run-up".into())
 }
 
 /// Spectrograms (STFT) of channels of a run-up; `flags` are those of the command `spectrogram`.
 #[pyfunction]
 pub fn run_spectrograms(py: Python<'_>, run: &StudyResults, flags: Vec<String>) -> PyResult<StudyResults> {
     detached(py, || {
-        let args = stored_args(&flags, "spectrogram")?;
+        let Command::Spectrogram(args) = command_of("spectrogram", &flags)? else {
+            return Err(no_analysis().into());
+        };
         let of_flags = |model: &rotordyn::model::Model| settings::spectrogram(model, &args);
         analysed(run, Study::Spectrogram, of_flags, |machine, results| {
             if let Some(study) = &machine.model.studies.spectrogram {
@@ -194,7 +198,9 @@ pub fn run_spectrograms(py: Python<'_>, run: &StudyResults, flags: Vec<String>) 
 #[pyfunction]
 pub fn run_orders(py: Python<'_>, run: &StudyResults, flags: Vec<String>) -> PyResult<StudyResults> {
     detached(py, || {
-        let args = stored_args(&flags, "orders")?;
+        let Command::Orders(args) = command_of("orders", &flags)? else {
+            return Err(no_analysis().into());
+        };
         let of_flags = |model: &rotordyn::model::Model| settings::orders(model, &args);
         analysed(run, Study::Orders, of_flags, |machine, results| {
             if let Some(study) = &machine.model.studies.orders {

@@ -14,7 +14,8 @@ mod update;
 
 use common::assignment;
 pub use common::{
-    CheckpointArgs, Interval, ModelArgs, Output, OutputFiles, ReportArgs, StoredArgs, StudyArgs,
+    CheckpointArgs, Interval, ModelArgs, OrdersArgs, Output, OutputFiles, ReportArgs, SpectrogramArgs,
+    StoredArgs, StudyArgs,
 };
 use keys::{help as key_help, help_with as key_help_with};
 
@@ -58,9 +59,9 @@ pub struct Cli {
 pub struct ExportArgs {
     #[command(flatten)]
     pub study: StudyArgs,
-    /// File formats of the run-up's channels (time histories), separated by commas
+    /// File formats of the run-up's channels (time histories), separated by commas [default: csv,uff,mat]
     #[arg(long, value_name = "FORMATS", value_delimiter = ',', default_values = ["csv", "uff", "mat"],
-          value_parser = run_format())]
+          hide_default_value = true, value_parser = run_format())]
     pub formats: Vec<RunFormat>,
     /// Record number in the variable names of channels.mat (X001_...)
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -78,6 +79,11 @@ fn slow_motion(text: &str) -> Result<f64, String> {
         Ok(factor) if factor > 0.0 && factor.is_finite() => Ok(factor),
         _ => Err("give a number greater than zero, such as 50".into()),
     }
+}
+
+/// Help of `--out` of a command whose results have a folder of their own.
+fn results_in(folder: &str) -> String {
+    format!("Folder for the results [default: {folder}]")
 }
 
 fn run_format() -> impl TypedValueParser<Value = RunFormat> {
@@ -325,7 +331,7 @@ Examples:
 Examples:
   rotordyn spectrogram out/overhung_rig
   rotordyn spectrogram out/overhung_rig/results.h5 --channels B_ax,B_ay --length \"0.5 s\"")]
-    Spectrogram(StoredArgs),
+    Spectrogram(SpectrogramArgs),
 
     /// Order tracking of a stored run-up: order spectra and order cuts
     ///
@@ -336,7 +342,7 @@ Examples:
 Examples:
   rotordyn orders out/overhung_rig
   rotordyn orders out/overhung_rig --resolution 0.02 --orders 7,\"2 BPFO\"")]
-    Orders(StoredArgs),
+    Orders(OrdersArgs),
 
     /// Orbits and Poincaré sections at constant speed, and classification of the motion
     ///
@@ -394,7 +400,7 @@ Examples:
     /// Variants, several values of a key, or named cases beside each other, in tables and on common axes: natural
     /// frequencies paired by MAC, FRFs, unbalance responses, Campbell diagrams; with --run-up run-ups. Measured FRFs or
     /// a recorded run-up stand beside them.
-    #[command(after_long_help = compare::COMPARE)]
+    #[command(after_long_help = compare::COMPARE, mut_arg("out", |out| out.help(results_in("out/NAME_comparison"))))]
     Compare(Box<CompareArgs>),
 
     /// Correlate the model with measured modes, FRFs or run-ups: mode pairing, MAC, frequency errors
@@ -404,7 +410,7 @@ Examples:
     /// with FRAC and FDAC. Several files, such as impact tests at different force levels, are also compared
     /// with the first: shift of every mode. A measured run-up is compared with a simulation driven by the
     /// same speed: spectrogram maps, waterfalls and the peak of every order.
-    #[command(after_long_help = update::VALIDATE)]
+    #[command(after_long_help = update::VALIDATE, mut_arg("out", |out| out.help(results_in("out/NAME_validation or out/NAME_VARIANT_validation"))))]
     Validate(Box<ValidateArgs>),
 
     /// Model updating: fit stiffnesses, dampings or any other parameters to measurements
@@ -413,7 +419,7 @@ Examples:
     /// Levenberg-Marquardt with exact sensitivities. Reports the identifiability of every parameter: standard
     /// error, posterior over prior variance, and the poorly identifiable parameter combinations. Writes the
     /// model file with the updated values, the rest of its text unchanged, and figures before and after.
-    #[command(after_long_help = update::UPDATE)]
+    #[command(after_long_help = update::UPDATE, mut_arg("out", |out| out.help(results_in("out/NAME_updated or out/NAME_VARIANT_updated"))))]
     Update(Box<UpdateArgs>),
 
     /// Explain the keys of the model file, or a command

@@ -15,7 +15,7 @@ use super::args::ModelArgs;
 use super::failure::Failure;
 use super::machine::ModelSource;
 use super::studies::Study;
-use super::terminal::{Terminal, number, rpm};
+use super::terminal::{Terminal, counted, number, rpm};
 use super::{defaults, equilibrium_loads, forecast};
 
 /// Check result of one variant.
@@ -133,27 +133,27 @@ fn summary(terminal: &Terminal, found: &CheckedVariant) {
     let shaft = match &model.rigid_rotor {
         Some(rotor) => format!("rigid rotor, {} kg", number(rotor.mass, 4)),
         None => format!(
-            "shaft {} mm in {} elements, {} kg",
+            "shaft {} mm in {}, {} kg",
             number(1e3 * length, 4),
-            model.shaft.len(),
+            counted(model.shaft.len(), "element", "elements"),
             number(found.mass - discs - bodies, 4)
         ),
     };
     terminal.print(&format!(
-        "  {shaft}; {} discs, {} kg; {} bodies and sensors, {} kg;\n  total {} kg",
-        model.discs.len(),
+        "  {shaft}; {}, {} kg; {}, {} kg;\n  total {} kg",
+        counted(model.discs.len(), "disc", "discs"),
         number(discs, 4),
-        model.bodies.len() + model.masses.len(),
+        counted(model.bodies.len() + model.masses.len(), "body or sensor", "bodies and sensors"),
         number(bodies, 4),
         number(found.mass, 4),
     ));
     terminal.print(&format!(
-        "  {} degrees of freedom, {} more eliminated by joints and drive; {} bushings, {} joints, {} belts",
-        dofs.len(),
+        "  {}, {} more eliminated by joints and drive; {}, {}, {}",
+        counted(dofs.len(), "degree of freedom", "degrees of freedom"),
         dofs.full_len() - dofs.len(),
-        model.bushings.len(),
-        model.joints.len(),
-        model.belts.len()
+        counted(model.bushings.len(), "bushing", "bushings"),
+        counted(model.joints.len(), "joint", "joints"),
+        counted(model.belts.len(), "belt", "belts")
     ));
     let (top, duration) = (rpm(model.profile.top_speed()), model.profile.duration());
     if top > 0.0 {

@@ -5,7 +5,7 @@ use rotordyn::identify::{ModalIdentification, quantity_of};
 use rotordyn::signal::Complex;
 use rotordyn::signal::record::FrfMatrix;
 
-use super::terminal::{Terminal, number};
+use super::terminal::{Terminal, counted, number};
 
 /// Table of modes, dropped modes and SDOF fits.
 pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix) {
@@ -60,8 +60,8 @@ pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix
     let (responses, references) = (found.responses.len(), found.references.len());
     if references > responses {
         terminal.print(&format!(
-            "  Roving hammer: {references} references, {responses} response{}; mode shapes are over the references.",
-            if responses == 1 { "" } else { "s" }
+            "  Roving hammer: {references} references, {}; mode shapes are over the references.",
+            counted(responses, "response", "responses")
         ));
     }
     if found.bands.len() > 1 {

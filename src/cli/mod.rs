@@ -68,6 +68,7 @@ pub(crate) mod update;
 pub(crate) mod update_findings;
 pub(crate) mod update_fit;
 mod update_warnings;
+mod usage;
 mod validate;
 
 use outcome::{Outcome, finish, print_model_warnings, print_written_files, report};
@@ -108,7 +109,11 @@ pub fn command(arguments: impl IntoIterator<Item = OsString>, hdf5_program: Opti
             env!("CARGO_PKG_VERSION")
         );
     }));
-    let mut cli = Cli::parse_from(arguments);
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let mut cli = match Cli::try_parse_from(&arguments) {
+        Ok(cli) => cli,
+        Err(error) => return usage::report(&error, &arguments),
+    };
     limits::set(cli.output.read_limit, hdf5_program);
     let terminal = Terminal::new(&cli.output);
     if let Some(threads) = cli.output.threads {
@@ -154,8 +159,8 @@ fn perform(command: &Command, terminal: &Terminal) -> Result<Outcome, Failure> {
         Command::Import(args) => import::run(args, terminal).map(Outcome::from),
         Command::Init(args) => init::run(args, terminal).map(Outcome::from),
         Command::Check(args) => check::run(args, terminal).map(Outcome::from),
-        Command::Spectrogram(args) => stored_run::run(args, terminal, Study::Spectrogram),
-        Command::Orders(args) => stored_run::run(args, terminal, Study::Orders),
+        Command::Spectrogram(args) => stored_run::spectrogram(args, terminal),
+        Command::Orders(args) => stored_run::orders(args, terminal),
         Command::Bearing(args) => bearing::run(args, terminal),
         Command::Identify(args) => identify::run(args, terminal),
         Command::Compare(args) => compare::run(args, terminal),

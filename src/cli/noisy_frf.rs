@@ -10,7 +10,7 @@ use super::ehl_films;
 use super::failure::Failure;
 use super::machine::ModelSource;
 use super::settings::Settings;
-use super::terminal::Terminal;
+use super::terminal::{Terminal, counted};
 
 /// Largest number of averages: more take away only noise that no longer matters.
 const MAX_AVERAGES: usize = 1_000_000;
@@ -49,6 +49,7 @@ pub fn run(
     let noisy = MeasurementNoise { signal_to_noise_db, averages: test.averages, seed: test.seed };
     let path = folder.join("frf_noisy.uff");
     measured::write(&path, &machine_records::with_measurement_noise(&exact, &noisy)?)?;
-    terminal.print(&format!("  {} ({} averages, seed {})", path.display(), test.averages, test.seed));
+    let averages = counted(test.averages, "average", "averages");
+    terminal.print(&format!("  {} ({averages}, seed {})", path.display(), test.seed));
     Ok(())
 }

@@ -128,11 +128,14 @@ pub(super) fn print_written_files(terminal: &Terminal, folder: &Path, files: &[P
 /// Prints the warnings and hints of the model file.
 pub(super) fn print_model_warnings(terminal: &Terminal, loaded: &Loaded) {
     super::renamed::print_hints(&loaded.hints, &loaded.sources, terminal);
-    if !loaded.warnings.is_empty() {
-        let text =
-            super::diagnostics::render(&loaded.warnings, &loaded.sources, Severity::Warning, terminal.colour);
+    // Those of the file itself are those of each of its variants.
+    let known = terminal.warnings();
+    let is_new = |found: &&Diagnostic| found.to_warning().is_none_or(|warning| !known.contains(&warning));
+    let found: Vec<Diagnostic> = loaded.warnings.iter().filter(is_new).cloned().collect();
+    if !found.is_empty() {
+        let text = super::diagnostics::render(&found, &loaded.sources, Severity::Warning, terminal.colour);
         terminal.diagnostics(&text);
-        loaded.warnings.iter().filter_map(Diagnostic::to_warning).for_each(|w| terminal.record_warning(w));
+        found.iter().filter_map(Diagnostic::to_warning).for_each(|w| terminal.record_warning(w));
     }
 }
 

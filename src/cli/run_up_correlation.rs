@@ -14,7 +14,7 @@ use rotordyn::study::{Machine, MeasuredRun, smeared_maxima};
 use rotordyn::update::UpdateError;
 use rotordyn::warning::Code;
 
-use super::args::{OutputFiles, ShaftArgs, StoredArgs};
+use super::args::{OrdersArgs, OutputFiles, ShaftArgs, SpectrogramArgs};
 use super::failure::Failure;
 use super::folder_lock::FolderLock;
 use super::machine::ModelSource;
@@ -274,12 +274,11 @@ fn simulation_job<'a>(
     terminal: &'a Terminal,
 ) -> Result<(Job<'a>, Option<CampbellResult>), Failure> {
     let model = origin.load(&[])?.model;
-    let no_flags = StoredArgs::default();
     let top = format!("{} rpm", found.rpm[1]);
     let drafts = [
         settings::run_up(&model, None, None, None, None, None),
-        settings::spectrogram(&model, &no_flags),
-        settings::orders(&model, &no_flags),
+        settings::spectrogram(&model, &SpectrogramArgs::default()),
+        settings::orders(&model, &OrdersArgs::default()),
         settings::campbell(&model, Some(&top), None),
     ];
     let set: Vec<(String, String)> = drafts.into_iter().flat_map(|draft| draft.set).collect();

@@ -8,7 +8,7 @@ use rotordyn::model::study::SweepVariable;
 use rotordyn::model::{Drive, Model, SpeedProfile, Station, keys};
 
 use super::args::keys::{default, default_words};
-use super::args::{BearingArgs, CriticalMapArgs, StoredArgs, TorsionalArgs};
+use super::args::{BearingArgs, CriticalMapArgs, OrdersArgs, SpectrogramArgs, TorsionalArgs};
 use super::failure::Failure;
 
 /// Settings of one study, and a note to the user.
@@ -256,14 +256,15 @@ pub fn bearing(args: &BearingArgs) -> Result<Settings, Failure> {
     Ok(draft.settings)
 }
 
-pub fn spectrogram(model: &Model, args: &StoredArgs) -> Settings {
+pub fn spectrogram(model: &Model, args: &SpectrogramArgs) -> Settings {
+    let SpectrogramArgs { stored, length, max_frequency } = args;
     let mut draft = SettingsBuilder::new("spectrogram");
-    draft.set_flag("channels", toml_array(&args.channels));
-    draft.set_flag("window", args.window.as_ref().map(|text| toml_string(text)));
-    draft.set_flag("length", args.length.as_ref().map(|text| toml_string(text)));
-    draft.set_flag("overlap", args.overlap.clone());
-    draft.set_flag("max_frequency", args.max_frequency.as_ref().map(|text| toml_string(text)));
-    draft.set_flag("orders", toml_array(&args.orders));
+    draft.set_flag("channels", toml_array(&stored.channels));
+    draft.set_flag("window", stored.window.as_ref().map(|text| toml_string(text)));
+    draft.set_flag("length", length.as_ref().map(|text| toml_string(text)));
+    draft.set_flag("overlap", stored.overlap.clone());
+    draft.set_flag("max_frequency", max_frequency.as_ref().map(|text| toml_string(text)));
+    draft.set_flag("orders", toml_array(&stored.orders));
     let [window, length] = ["window", "length"].map(|key| default_words(&format!("study.spectrogram.{key}")));
     let words = format!("{window} window of {length}");
     let values = [("window", default("study.spectrogram.window"))];
@@ -271,15 +272,16 @@ pub fn spectrogram(model: &Model, args: &StoredArgs) -> Settings {
     with_run_up(model, settings)
 }
 
-pub fn orders(model: &Model, args: &StoredArgs) -> Settings {
+pub fn orders(model: &Model, args: &OrdersArgs) -> Settings {
+    let stored = &args.stored;
     let mut draft = SettingsBuilder::new("orders");
-    draft.set_flag("channels", toml_array(&args.channels));
-    draft.set_flag("window", args.window.as_ref().map(|text| toml_string(text)));
+    draft.set_flag("channels", toml_array(&stored.channels));
+    draft.set_flag("window", stored.window.as_ref().map(|text| toml_string(text)));
     draft.set_flag("resolution", args.resolution.clone());
-    draft.set_flag("overlap", args.overlap.clone());
+    draft.set_flag("overlap", stored.overlap.clone());
     draft.set_flag("max_order", args.max_order.clone());
     draft.set_flag("bandwidth", args.bandwidth.clone());
-    draft.set_as_written("cuts", toml_array(&args.orders), written("--orders", &args.orders));
+    draft.set_as_written("cuts", toml_array(&stored.orders), written("--orders", &stored.orders));
     let [resolution, top] =
         ["resolution", "max_order"].map(|key| default_words(&format!("study.orders.{key}")));
     let words = format!("order resolution {resolution} up to order {top}");
@@ -347,7 +349,6 @@ mod tests {
     #[test]
     fn defaults_of_commands_are_declared_and_valid() {
         let model = load("machine.toml", MACHINE, &Options::default()).unwrap().model;
-        let stored = StoredArgs::default();
         let settings = [
             equilibrium(&model, None, false),
             modal(&model, None, None),
@@ -356,8 +357,8 @@ mod tests {
             frf(&model, None, None, None),
             unbalance(&model, None, None),
             run_up(&model, None, None, None, None, None),
-            spectrogram(&model, &stored),
-            orders(&model, &stored),
+            spectrogram(&model, &SpectrogramArgs::default()),
+            orders(&model, &OrdersArgs::default()),
         ];
         for Settings { set, note, .. } in settings {
             assert!(!set.is_empty() && note.is_some());

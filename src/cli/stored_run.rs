@@ -4,18 +4,33 @@ use std::path::PathBuf;
 
 use rotordyn::io::hdf5::open_reader;
 use rotordyn::io::results_file;
+use rotordyn::model::Model;
 use rotordyn::study::Machine;
 
-use super::args::StoredArgs;
+use super::args::{OrdersArgs, SpectrogramArgs, StoredArgs};
 use super::failure::Failure;
 use super::folder_lock::FolderLock;
 use super::limits::limits;
+use super::settings::{self, Settings};
 use super::store::{self, stored_origin};
 use super::studies::{Job, Study};
 use super::terminal::Terminal;
-use super::{Outcome, ehl_films, finish, settings, tables};
+use super::{Outcome, ehl_films, finish, tables};
 
-pub fn run(args: &StoredArgs, terminal: &Terminal, study: Study) -> Result<Outcome, Failure> {
+pub fn spectrogram(args: &SpectrogramArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
+    run(&args.stored, terminal, Study::Spectrogram, |model| settings::spectrogram(model, args))
+}
+
+pub fn orders(args: &OrdersArgs, terminal: &Terminal) -> Result<Outcome, Failure> {
+    run(&args.stored, terminal, Study::Orders, |model| settings::orders(model, args))
+}
+
+fn run(
+    args: &StoredArgs,
+    terminal: &Terminal,
+    study: Study,
+    of_flags: impl Fn(&Model) -> Settings,
+) -> Result<Outcome, Failure> {
     let path = store::find(&args.file, terminal);
     let folder = path.parent().map(PathBuf::from).unwrap_or_default();
     let stored = open_reader(&path, limits())?;
@@ -30,10 +45,7 @@ pub fn run(args: &StoredArgs, terminal: &Terminal, study: Study) -> Result<Outco
     drop(stored);
 
     let base = origin.load(&[])?;
-    let mut settings = match study {
-        Study::Orders => settings::orders(&base.model, args),
-        _ => settings::spectrogram(&base.model, args),
-    };
+    let mut settings = of_flags(&base.model);
     // The orders fit the rate that the run has, not it theirs.
     let rate = "study.run_up.sample_rate";
     if base.defaults.iter().any(|default| default.path == rate) {

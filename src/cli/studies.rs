@@ -334,7 +334,7 @@ impl<'a> Job<'a> {
             linear if linear.is_linear() => {
                 linear.compute(machine, &mut self.results)?;
                 spinner.finish_and_clear();
-                print_linear(terminal, linear, &self.results, &machine.model);
+                print_linear(terminal, linear, &self.results, machine);
             }
             Study::RunUp => {
                 spinner.finish_and_clear();
@@ -408,11 +408,11 @@ impl<'a> Job<'a> {
 }
 
 /// Prints the tables of a linear study.
-fn print_linear(terminal: &Terminal, study: Study, results: &Results, model: &Model) {
+fn print_linear(terminal: &Terminal, study: Study, results: &Results, machine: &Machine) {
     match study {
         Study::Static => results.equilibrium.iter().for_each(|found| tables::equilibrium(terminal, found)),
         Study::Modal if results.modal.is_empty() => {}
-        Study::Modal => tables::modes(terminal, &results.modal, model),
+        Study::Modal => tables::modes(terminal, &results.modal, &machine.model),
         Study::Campbell => results.campbell.iter().for_each(|found| tables::campbell(terminal, found)),
         Study::Critical => results.critical.iter().for_each(|found| tables::critical(terminal, found)),
         Study::CriticalMap => {
@@ -421,7 +421,7 @@ fn print_linear(terminal: &Terminal, study: Study, results: &Results, model: &Mo
         Study::Torsional => {
             results.torsional.iter().for_each(|found| rotor_tables::torsional(terminal, found));
         }
-        Study::Frf => results.frf.iter().for_each(|found| tables::frf(terminal, found)),
+        Study::Frf => results.frf.iter().for_each(|found| tables::frf(terminal, found, machine)),
         Study::Unbalance => results.unbalance.iter().for_each(|found| tables::unbalance(terminal, found)),
         _ => {}
     }

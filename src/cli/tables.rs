@@ -11,6 +11,7 @@ use rotordyn::results::{
     UnbalanceResult, UndampedPeak, is_rotation, unit_of,
 };
 use rotordyn::series::SeriesError;
+use rotordyn::study::Machine;
 
 use super::equilibrium_loads;
 use super::printed;
@@ -212,7 +213,7 @@ fn print_omitted_count(terminal: &Terminal, count: usize) {
     }
 }
 
-pub fn frf(terminal: &Terminal, found: &FrfResult) {
+pub fn frf(terminal: &Terminal, found: &FrfResult, machine: &Machine) {
     let frequencies = &found.frf.frequencies;
     let mut rows = Vec::new();
     for (r, response) in found.responses.iter().enumerate() {
@@ -222,7 +223,7 @@ pub fn frf(terminal: &Terminal, found: &FrfResult) {
                 continue;
             };
             rows.push(vec![
-                excitation.clone(),
+                machine.excitation_label(excitation),
                 response.clone(),
                 number(frequencies[peak], 6),
                 amplitude_text(size(&peak), &found.undamped, &format!("{response}/{excitation}")),

@@ -14,6 +14,11 @@ use super::interrupt;
 
 pub use rotordyn::document::number;
 
+/// A number with the noun for one or for several.
+pub fn counted(number: usize, one: &str, several: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { several })
+}
+
 /// Width of printed sentences [characters].
 const WIDTH: usize = 118;
 

@@ -7,6 +7,7 @@ mod belts;
 mod commands;
 mod compare;
 mod failures;
+mod first_changes;
 #[cfg(target_os = "linux")]
 mod flat_memory;
 mod forecasts;

@@ -5,6 +5,7 @@ mod sample;
 
 mod bad_input;
 mod bearings;
+mod consequences;
 mod defects;
 mod measured_speed;
 mod mutations;

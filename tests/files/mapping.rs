@@ -46,7 +46,7 @@ fn channels_are_mapped_by_name_and_others_dropped() {
         unit = "kN"
     "#;
     let (found, warnings) = apply(text, &records).unwrap();
-    assert_eq!(warnings, ["1 channels are not in the mapping and left out: twist"]);
+    assert_eq!(warnings, ["1 channel is not in the mapping and left out: twist"]);
     assert_eq!(found.records.len(), 2);
     assert_eq!(found.records[0].response, Dof::new(30, -2));
     assert_eq!(found.records[0].sample_rate(), Ok(12000.0), "the rate given in the file is kept");

@@ -3,6 +3,7 @@
 
 use rotordyn::model::study::Integrator;
 use rotordyn::model::{self, Kind, Loaded, Options, Quantity};
+use rotordyn::study::Machine;
 
 const HEAD: &str = r#"
 [model]
@@ -208,18 +209,29 @@ fn a_key_of_a_variant_takes_the_place_of_one_that_excludes_it() {
     assert!(errors.to_string().contains("mutually exclusive"), "{errors}");
 }
 
-/// Of a name that several bearings have, every meaning is given.
+/// A name that several bearings have stands for the line of each, of equal ones once; a bearing's own name for its line.
 #[test]
-fn an_ambiguous_order_lists_the_bearings() {
+fn an_order_without_bearing_is_that_of_every_bearing() {
     let text = HEAD.replacen(
         "[bearing.B]\nstation = \"B\"\nmodel = \"ball\"\ndesignation = \"6205\"",
         "[bearing.B]\nstation = \"B\"\nmodel = \"ball\"\ndesignation = \"6305\"",
         1,
     );
-    let study = "[study.campbell]\nspeeds = \"0, 3000 rpm\"\norders = [\"BPFO\"]\n";
-    let errors = model::load("machine.toml", format!("{text}{study}"), &Options::default()).unwrap_err();
-    let message = errors.to_string();
-    assert!(message.contains("write one of them: \"A.BPFO\" is 3.572, \"B.BPFO\" is "), "{message}");
+    let read = |text: &str, names: &str| {
+        let study = format!("[study.campbell]\nspeeds = \"0, 3000 rpm\"\norders = [{names}]\n");
+        model::load("machine.toml", format!("{text}{study}"), &Options::default()).map(|loaded| loaded.model)
+    };
+    let orders = |text: &str, names: &str| read(text, names).unwrap().studies.campbell.unwrap().orders;
+    let [a, b] = ["\"A.BPFO\"", "\"B.BPFO\""].map(|name| orders(&text, name)[0]);
+    assert!((a - b).abs() > 1e-3 && (a - 3.572).abs() < 1e-3, "{a} {b}");
+    assert_eq!(orders(&text, "1, \"BPFO\""), [1.0, a, b]);
+    assert_eq!(orders(&text, "\"A.BPFO\", \"BPFO\", \"2 BPFO\""), [a, b, 2.0 * a, 2.0 * b]);
+    assert_eq!(orders(HEAD, "1, \"BPFO\""), [1.0, a]);
+    let lines = Machine::new(read(&text, "1, \"BPFO\"").unwrap()).unwrap().order_lines(&[1.0, a, b, 2.0 * b]);
+    let labels: Vec<_> = lines.iter().map(|line| line.label.as_str()).collect();
+    assert_eq!(labels, ["1x", "A.BPFO", "B.BPFO", "2 B.BPFO"]);
+    let message = read(&text, "\"C.BPFO\"").unwrap_err().to_string();
+    assert!(message.contains("no ball bearing `C`; known are \"A.BPFO\", \"B.BPFO\""), "{message}");
 }
 
 #[test]

@@ -9,6 +9,7 @@ use super::file::overlay::{apply_set, apply_variant};
 use super::file::renamed;
 use super::file::tree::{Table, Value};
 use super::file::{DefaultValue, Diagnostic, GivenValue, Kind, ModelErrors, Source};
+use super::keys::{self, KindName};
 use super::study::Studies;
 use super::{ExternalFile, Model};
 use rotordyn_bearing::free_ball::FreeBallBearing;
@@ -271,6 +272,11 @@ impl Document {
                 let span = error.span().unwrap_or(0..0);
                 let message = error.message().lines().next().unwrap_or("not TOML").to_string();
                 let problem = Problem::new(Kind::Syntax, &span, format!("not TOML: {message}"));
+                if let Some(number) = decimal_comma(text, span.start) {
+                    let hint = format!("the decimal sign is a point: {number}");
+                    log.error(problem.hint(hint));
+                    return Err(model_errors(sources, log));
+                }
                 log.error(problem.hint(match message.as_str() {
                     "duplicate key" => {
                         "a key can be defined only once; to change it in a variant use [variant.NAME]"
@@ -284,13 +290,35 @@ impl Document {
         renamed::translate(&mut root, &log);
         apply_variant(&mut root, options.variant.as_deref(), &log);
         for (path, value) in &options.set {
-            apply_set(&mut root, path, value, &mut sources, &log);
+            apply_set(&mut root, [path, value], is_text(path), &mut sources, &log);
         }
         if log.error_count() > 0 {
             return Err(model_errors(sources, log));
         }
         Ok(Self { root, sources, log, text: text.to_string() })
     }
+}
+
+/// Whether the key of a path, in each of its forms, is a text.
+fn is_text(path: &str) -> bool {
+    let found = keys::find(path);
+    found.is_ok_and(|found| !found.keys.is_empty() && found.keys.iter().all(|key| key.kind == KindName::Text))
+}
+
+/// The number of an assignment `x = 0,3` whose comma is before or at a place in the text, with a point.
+fn decimal_comma(text: &str, at: usize) -> Option<String> {
+    let line_start = text.get(..at)?.rfind('\n').map_or(0, |end| end + 1);
+    let line = text[line_start..].lines().next()?;
+    let commas = line.match_indices(',').map(|(place, _)| place);
+    let is_digit = |c: char| c.is_ascii_digit();
+    commas.filter(|place| line_start + place <= at).last().and_then(|place| {
+        let (before, after) = (&line[..place], &line[place + 1..]);
+        let whole = &before[before.trim_end_matches(is_digit).len()..];
+        let decimals = &after[..after.len() - after.trim_start_matches(is_digit).len()];
+        let sign = before[..before.len() - whole.len()].trim_end_matches(['-', '+']).trim_end();
+        (!whole.is_empty() && !decimals.is_empty() && sign.ends_with('='))
+            .then(|| format!("{whole}.{decimals}"))
+    })
 }
 
 /// Sources, warnings and hints of a file without errors, otherwise its errors.

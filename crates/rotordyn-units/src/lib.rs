@@ -6,7 +6,7 @@
 //! (turns) separately, so that 50 Hz is exactly 50 as a frequency and 2π·50 rad/s as a speed.
 //!
 //! Decisions: a speed takes rpm, rad/s, deg/s, rev/s and Hz (turns per second); a frequency takes the same and is
-//! a number of Hz; `1/s` is neither. `lb` is a mass, `lbf` a force. Rotational stiffness may be written with or
+//! a number of Hz; `1/s` is neither. Of both, `1/min`, `min^-1`, `r/min`, `U/min` and `RPM` are rpm. `lb` is a mass, `lbf` a force. Rotational stiffness may be written with or
 //! without `/rad`. A dimensionless number may be written without unit or in per cent. `degC` is accepted for
 //! a temperature only, and not in products; temperature differences and quantities per degree take K.
 
@@ -153,6 +153,9 @@ const UNITS: &[(&str, f64, f64, i32, [i32; 5])] = &[
     ("bar", 1e5, 1.0, 0, [-1, 1, -2, 0, 0]), ("kgf", 9.80665, 1.0, 0, [1, 1, -2, 0, 0]),
 ];
 
+/// Other names of rpm, of a speed or a frequency only.
+const PER_MINUTE: [&str; 7] = ["RPM", "1/min", "/min", "min^-1", "min⁻¹", "r/min", "U/min"];
+
 /// Names of the only unit with an offset.
 const CELSIUS: [&str; 2] = ["degC", "°C"];
 /// 0 °C \[K\].
@@ -229,7 +232,10 @@ pub fn parse_list(text: &str, dimension: Dimension) -> Result<Vec<f64>, UnitErro
             rest = after_comma.trim_start();
         }
     }
-    let unit = rest.trim_end();
+    let unit = match rest.trim_end() {
+        turns if is_rate_of_turns(dimension) && is_per_minute(turns) => "rpm",
+        unit => unit,
+    };
     if values.is_empty() {
         let word = unit.trim_start_matches(['+', '-']).to_ascii_lowercase();
         let not_finite = ["nan", "inf"].iter().any(|w| word.starts_with(w));
@@ -275,6 +281,17 @@ pub fn parse_list(text: &str, dimension: Dimension) -> Result<Vec<f64>, UnitErro
         }
     }
     Ok(values)
+}
+
+/// Whether a quantity counts turns in a time.
+fn is_rate_of_turns(dimension: Dimension) -> bool {
+    dimension == SPEED || dimension.angle == Angle::Turns
+}
+
+/// Whether a unit is another name of rpm where turns are counted; nothing else turns per minute.
+fn is_per_minute(unit: &str) -> bool {
+    let plain: String = unit.split_whitespace().collect();
+    PER_MINUTE.contains(&plain.as_str())
 }
 
 /// Number at the start of a text, and its length in bytes.

@@ -127,3 +127,16 @@ fn errors_name_the_cause() {
     let expected = UnitError::WrongDimension { unit: "kg".into(), found: "mass".into(), expected: "length" };
     assert_eq!(wrong, Err(expected));
 }
+
+/// Turns per minute have many names; what counts no turns keeps its unit.
+#[test]
+fn other_names_of_rpm() {
+    for unit in ["RPM", "1/min", "/min", "min^-1", "min⁻¹", "r/min", "U/min", "rev/min", "1 / min"] {
+        assert_eq!(parse(&format!("3000 {unit}"), FREQUENCY), Ok(50.0), "{unit}");
+        assert_eq!(parse_list(&format!("0, 60 {unit}"), SPEED), Ok(vec![0.0, TAU]), "{unit}");
+    }
+    assert_eq!(parse("30 1/min", RATE), Ok(0.5));
+    assert!(
+        parse("3000 1/s", SPEED).is_err() && parse("3 r", ANGLE).is_err() && parse("3 RPM", RATE).is_err()
+    );
+}

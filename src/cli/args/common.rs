@@ -1,7 +1,7 @@
 //! Arguments shared by commands: model, results folder, output, stored runs.
 
 use super::super::limits;
-use super::keys::{help as key_help, help_with as key_help_with};
+use super::keys::help as key_help;
 use clap::Args;
 use rotordyn::units;
 use std::path::PathBuf;
@@ -123,7 +123,7 @@ pub struct ReportArgs {
     pub out: Option<PathBuf>,
 }
 
-/// Stored run-up and analysis settings (`spectrogram`, `orders`).
+/// Stored run-up and settings of its analyses (`spectrogram`, `orders`).
 #[derive(Args, Clone, Debug, Default)]
 pub struct StoredArgs {
     /// results.h5 of a run-up, or its folder
@@ -131,19 +131,9 @@ pub struct StoredArgs {
     /// Channels, separated by commas [default: those of the model file, else all vibration channels]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub channels: Vec<String>,
-    #[arg(long, value_name = "TIME", help = key_help_with("study.spectrogram.length", "spectrogram only"))]
-    pub length: Option<String>,
-    #[arg(long, value_name = "FREQUENCY", help = key_help_with("study.spectrogram.max_frequency", "spectrogram only"))]
-    pub max_frequency: Option<String>,
-    #[arg(long, value_name = "NUMBER", help = key_help_with("study.orders.resolution", "orders only"))]
-    pub resolution: Option<String>,
-    #[arg(long, value_name = "NUMBER", help = key_help_with("study.orders.max_order", "orders only"))]
-    pub max_order: Option<String>,
     /// Order lines to draw or to extract (order cuts), such as 1,2,BPFO,"2 BPFO"
     #[arg(long, value_name = "ORDERS", value_delimiter = ',')]
     pub orders: Vec<String>,
-    #[arg(long, value_name = "ORDERS", help = key_help_with("study.orders.bandwidth", "orders only"))]
-    pub bandwidth: Option<String>,
     #[arg(long, value_name = "NUMBER", help = key_help("study.orders.overlap"))]
     pub overlap: Option<String>,
     #[arg(long, value_name = "NAME", help = key_help("study.orders.window"))]
@@ -154,6 +144,30 @@ pub struct StoredArgs {
     /// Also write the tables of the results as CSV files, to csv/ in the results folder
     #[arg(long)]
     pub csv: bool,
+}
+
+/// Arguments of `spectrogram`.
+#[derive(Args, Clone, Debug, Default)]
+pub struct SpectrogramArgs {
+    #[command(flatten)]
+    pub stored: StoredArgs,
+    #[arg(long, value_name = "TIME", help = key_help("study.spectrogram.length"))]
+    pub length: Option<String>,
+    #[arg(long, value_name = "FREQUENCY", help = key_help("study.spectrogram.max_frequency"))]
+    pub max_frequency: Option<String>,
+}
+
+/// Arguments of `orders`.
+#[derive(Args, Clone, Debug, Default)]
+pub struct OrdersArgs {
+    #[command(flatten)]
+    pub stored: StoredArgs,
+    #[arg(long, value_name = "NUMBER", help = key_help("study.orders.resolution"))]
+    pub resolution: Option<String>,
+    #[arg(long, value_name = "NUMBER", help = key_help("study.orders.max_order"))]
+    pub max_order: Option<String>,
+    #[arg(long, value_name = "ORDERS", help = key_help("study.orders.bandwidth"))]
+    pub bandwidth: Option<String>,
 }
 
 /// Parse PATH=VALUE.

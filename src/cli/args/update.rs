@@ -95,13 +95,14 @@ pub struct UpdateArgs {
     /// repeated [default: a factor of two]
     #[arg(long, value_name = "PATH=PRIOR", value_parser = assignment)]
     pub prior: Vec<(String, String)>,
-    /// Residuals to fit, separated by commas
-    #[arg(long, value_name = "WHAT", value_delimiter = ',', default_values = ["frequency", "mac"])]
+    /// Residuals to fit, separated by commas [default: frequency,mac]
+    #[arg(long, value_name = "WHAT", value_delimiter = ',', default_values = ["frequency", "mac"],
+          hide_default_value = true)]
     pub fit: Vec<FitResidual>,
-    /// Standard deviation of frequencies (model error) \[%\]
+    /// Standard deviation of frequencies (model error) in %
     #[arg(long, value_name = "PERCENT", default_value_t = 0.1, value_parser = positive)]
     pub frequency_accuracy: f64,
-    /// Standard deviation of FRFs (model error), relative to their magnitude \[%\]: 10 is about 1 dB
+    /// Standard deviation of FRFs (model error), in % of their magnitude: 10 is about 1 dB
     #[arg(long, value_name = "PERCENT", default_value_t = 10.0, value_parser = positive)]
     pub frf_accuracy: f64,
     /// Parameters of --free, separated by commas, whose profile likelihood is computed: chi^2 over the parameter with all

@@ -10,7 +10,7 @@ use rotordyn::results::{CampbellResult, OrderResult, SpectrogramResult};
 use rotordyn::study::{MEASURED, Machine, Run, compare_run_ups};
 use serde_json::json;
 
-use super::super::args::{CompareArgs, OutputFiles, StoredArgs};
+use super::super::args::{CompareArgs, OrdersArgs, OutputFiles, SpectrogramArgs};
 use super::super::csv_files::write_csv;
 use super::super::failure::Failure;
 use super::super::folder_lock::FolderLock;
@@ -133,13 +133,12 @@ fn simulate<'a>(
     terminal: &Terminal,
 ) -> Result<Computed<'a>, Failure> {
     let model = case.origin.load_with(&case.settings)?.model;
-    let no_flags = StoredArgs::default();
     let top = measured.map(|found| format!("{} rpm", found.rpm[1]));
     let mut own = case.settings.clone();
     for more in [
         settings::run_up(&model, None, None, None, None, None),
-        settings::spectrogram(&model, &no_flags),
-        settings::orders(&model, &no_flags),
+        settings::spectrogram(&model, &SpectrogramArgs::default()),
+        settings::orders(&model, &OrdersArgs::default()),
         settings::campbell(&model, top.as_ref(), None),
     ] {
         own.set.extend(more.set);

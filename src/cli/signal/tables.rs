@@ -9,7 +9,7 @@ use rotordyn::signal::ridge::find_hann_lines;
 use rotordyn::signal::spectrum::Spectrum;
 
 use super::super::printed;
-use super::super::terminal::{Terminal, number};
+use super::super::terminal::{Terminal, counted, number};
 use super::input::File;
 use super::line_tables;
 use super::record_speed;
@@ -47,7 +47,8 @@ pub fn channels(terminal: &Terminal, file: &File, chosen: &[&str]) {
         0 => String::new(),
         n => format!(" (and {n} more)"),
     };
-    let title = format!("{}: {} channels{more}", file.path.display(), records.len());
+    let channels = counted(records.len(), "channel", "channels");
+    let title = format!("{}: {channels}{more}", file.path.display());
     terminal.table(&title, &["channel", "content", "samples", "rate Hz", "unit", "use"], &rows);
     // What states the rate, once for all channels that have it from there.
     let mut sources: Vec<&str> =
@@ -175,7 +176,7 @@ fn cuts(terminal: &Terminal, result: &SignalResult, orders: &ShaftOrders) {
         .collect();
     let header = ["line", "order", &level("RMS", result), "peak RMS", "at rpm"];
     terminal.table(
-        &format!("Orders of {}, {} windows", result.channel, orders.map.rpm.len()),
+        &format!("Orders of {}, {}", result.channel, counted(orders.map.rpm.len(), "window", "windows")),
         &header,
         &rows,
     );

@@ -21,10 +21,33 @@ use rayon::prelude::*;
 use rotordyn_linalg::{Complex64, SparseRow};
 use std::f64::consts::TAU;
 
+/// Names of an excitation that say nothing of its place.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
 /// Width of the range searched for poles around a single frequency or speed, relative to it.
 const SINGLE_POINT_RANGE: f64 = 1e-3;
 
 impl Machine {
+    /// An excitation of the FRF study as it is shown: one that is named like an axis with the item on which it acts,
+    /// "x at disc.pulley".
+    pub fn excitation_label(&self, name: &str) -> String {
+        let study = self.model.studies.frf.as_ref();
+        let found = study.and_then(|study| study.excitations.iter().find(|of| of.name == name));
+        let node = found.filter(|_| AXES.contains(&name)).and_then(|excitation| excitation.at.node);
+        let at = |of: usize| node == Some(of);
+        let model = &self.model;
+        let item = if let Some(disc) = model.discs.iter().find(|disc| at(disc.node)) {
+            format!("disc.{}", disc.name)
+        } else if model.rigid_rotor.as_ref().is_some_and(|rotor| at(rotor.node)) {
+            "rotor".to_string()
+        } else if let Some(station) = model.stations.iter().find(|station| at(station.node)) {
+            format!("station.{}", station.name)
+        } else {
+            return name.into();
+        };
+        format!("{name} at {item}")
+    }
+
     /// Frequency response functions at a speed.
     ///
     /// # Errors

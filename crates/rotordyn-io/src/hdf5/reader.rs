@@ -112,9 +112,7 @@ impl OpenFile {
     pub fn open(path: &Path, limits: &Limits) -> Result<Self, Error> {
         let file = std::fs::File::open(path).map_err(Error::of_file("open", path))?;
         let size = crate::budget::regular_size(path, &file)?;
-        let store = Store::open(path).map_err(|error| {
-            damaged(path, format!("the HDF5 library does not open it: {}", cause(&error)))
-        })?;
+        let store = Store::open(path).map_err(|error| unopened(path, &cause(&error)))?;
         Ok(Self { store, memory: limits.memory_of(size) })
     }
 
@@ -141,6 +139,15 @@ fn cause(error: &Error) -> String {
         Error::Environment { source, .. } => source.to_string(),
         other => other.to_string(),
     }
+}
+
+/// The error of a file that the library does not open: none of its kind, or a damaged one.
+fn unopened(path: &Path, problem: &str) -> Error {
+    if !problem.contains("file signature not found") {
+        return damaged(path, format!("the HDF5 library does not open it: {problem}"));
+    }
+    let advice = "give results.h5 of a run or its folder; if it is meant to be one, copy the file again";
+    Error::Content { path: path.into(), problem: "not an HDF5 file".into(), advice: advice.into() }
 }
 
 /// The error of a file whose contents cannot be read.

@@ -209,8 +209,9 @@ impl Mapping {
             let count = left_out.len();
             left_out.truncate(8);
             let more = if count > 8 { ", ..." } else { "" };
+            let what = if count == 1 { "channel is" } else { "channels are" };
             warnings.push(format!(
-                "{count} channels are not in the mapping and left out: {}{more}",
+                "{count} {what} not in the mapping and left out: {}{more}",
                 left_out.join(", ")
             ));
         }

@@ -122,6 +122,7 @@ pub(super) fn of_bearing(r: &Reader, lubricants: &[Lubricant], film: &Range<usiz
             if found.is_none() {
                 let message = format!("unknown lubricant `{name}`");
                 let problem = Problem::new(Kind::UnknownName, &r.span_of(key), message);
+                let problem = problem.follows("lubricant");
                 let problem = problem.suggest(r.log, name, lubricants.iter().map(|oil| oil.name.as_str()));
                 r.log.error(match lubricants {
                     [] => problem.hint(format!(

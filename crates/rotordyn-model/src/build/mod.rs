@@ -47,7 +47,7 @@ use super::file::key::{
     not_negative, positive, quantities, quantity, sub_table, text, within,
 };
 use super::file::overlay::VariantTopKeys;
-use super::file::reader::Reader;
+use super::file::reader::{Reader, missing_table_problem};
 use super::file::tree::Table;
 use super::study::Studies;
 use super::{ExternalFile, Model};
@@ -134,7 +134,11 @@ pub(crate) fn build_model(root: &Table, files: &[ExternalFile], log: &Log) -> Mo
     bushings.extend(connections::bushings(&top, &places));
     let joints = connections::joints(&top, &places);
     let belts = connections::belts(&top, &places);
+    let errors_before = log.error_count();
     let bearings = bearing::read(&top, &materials, &lubricants, gravity, &places);
+    if log.error_count() > errors_before {
+        log.add_cause(bearing::TOP.bearing.about.name);
+    }
     bearing::name_ends(&top, &mut places);
     let rotor_mass = line.mass() + discs.iter().map(|d| d.mass).sum::<f64>();
     let unbalances = loading::unbalances(&top, &places, rotor_mass);
@@ -208,7 +212,7 @@ fn model_header(top: &Reader) -> (String, String, [f64; 3]) {
     // For editors only.
     top.text(&TOP.schema);
     if !top.has(&TOP.model) {
-        let problem = Problem::new(Kind::MissingKey, &(0..0), "the file has no [model] table");
+        let problem = missing_table_problem(TOP.model.about.name);
         top.log.error(problem.hint("start the file with\n[model]\nname = \"my_machine\""));
         return (String::new(), String::new(), [0.0; 3]);
     }

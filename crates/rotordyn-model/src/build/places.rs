@@ -3,7 +3,7 @@
 use crate::Station;
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{Key, Quantities, Text, Texts, any, keys, quantities, text, texts};
-use crate::file::reader::Reader;
+use crate::file::reader::{Reader, missing_table_problem};
 use rotordyn_core::element::Anchor;
 use rotordyn_units::LENGTH;
 use rotordyn_units::names::nearest;
@@ -62,6 +62,19 @@ pub(super) struct Places {
     connections: HashMap<String, String>,
 }
 
+/// Tables of the file whose items are places.
+const KINDS: [&str; 5] = ["station", "disc", "body", "housing", "sensor"];
+
+/// The table in which a name of a place was expected, if it says so or only one comes into question.
+fn missing_kind(text: &str, kinds: &[&str]) -> Option<&'static str> {
+    let kind = text.split_once('.').map(|(kind, _)| kind).or(if kinds == ["station"] {
+        Some("station")
+    } else {
+        None
+    });
+    KINDS.into_iter().find(|known| Some(*known) == kind)
+}
+
 /// "A" of "station.A"; "ground" is its own.
 fn short(name: &str) -> &str {
     name.split_once('.').map_or(name, |(_, short)| short)
@@ -117,6 +130,17 @@ impl Places {
             [] => {
                 let what = if kinds == ["station"] { "station" } else { "place" };
                 let problem = Problem::new(Kind::UnknownName, span, format!("unknown {what} `{text}`"));
+                let problem = match missing_kind(text, kinds) {
+                    Some(kind) => problem.follows(kind),
+                    None => problem,
+                };
+                if !text.contains('.') && !self.list.iter().any(|place| place.name.starts_with("station.")) {
+                    let problem = missing_table_problem("station").follows("station");
+                    let example =
+                        format!("add [station] with the positions along the shaft: {text} = \"100 mm\"");
+                    r.log.error_once(problem.hint(example));
+                    return None;
+                }
                 if let Some(ends) = self.connections.get(text) {
                     r.log.error(problem.hint(format!("{text} acts between {ends}: write one of them")));
                     return None;

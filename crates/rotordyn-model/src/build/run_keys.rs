@@ -117,7 +117,8 @@ pub(super) fn channels(r: &Reader, key: &Key<Texts>, model: &Model) -> Vec<Strin
     let mut channels = Vec::new();
     for (name, span) in r.texts(key).unwrap_or_default() {
         if !model.probes.iter().any(|p| p.name == name) {
-            let problem = Problem::new(Kind::UnknownName, &span, format!("unknown probe `{name}`"));
+            let problem =
+                Problem::new(Kind::UnknownName, &span, format!("unknown probe `{name}`")).follows("probe");
             r.log.error(problem.suggest(r.log, name, model.probes.iter().map(|p| p.name.as_str())));
         }
         channels.push(name.to_string());

@@ -7,7 +7,7 @@ use crate::file::key::{
     Flag, Group, Key, NamedQuantities, Quantity, SubTable, Table, TableList, Text, Words, any, flag, keys,
     named_quantities, not_negative, positive, quantity, sub_table, table_list, text, words,
 };
-use crate::file::reader::Reader;
+use crate::file::reader::{Reader, missing_table_problem};
 use crate::file::tree::Value;
 use rotordyn_core::document::number;
 use rotordyn_core::element::{Disc, Material, ShaftElement, ShearCoefficient};
@@ -180,13 +180,14 @@ const MAX_ELEMENTS: f64 = 5000.0;
 
 pub(super) fn read(top: &Reader, materials: &[Material]) -> MeshedShaft {
     if !top.has(&TOP.shaft) {
-        let problem = Problem::new(Kind::MissingKey, &(0..0), "the file has no [shaft] table");
+        let problem = missing_table_problem(TOP.shaft.about.name);
         top.log.error(
             problem
                 .hint("add [shaft] with material, element_length and [[shaft.section]], or a rigid [rotor]"),
         );
-        top.has(&TOP.station);
-        return MeshedShaft::default();
+        // what refers to the stations is right
+        let stations = stations(top, None, 0.0);
+        return MeshedShaft { stations, ..MeshedShaft::default() };
     }
     let r = top.table_or_empty(&TOP.shaft);
     let start = r.value(&SHAFT.start);

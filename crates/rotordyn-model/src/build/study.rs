@@ -191,6 +191,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
         studies.unbalance = Some(UnbalanceStudy { speeds, refine, responses, operating_speeds });
         if model.unbalances.is_empty() && r.has_no_errors() {
             let problem = Problem::new(Kind::MissingKey, &r.span, "study.unbalance needs an unbalance");
+            let problem = problem.follows("unbalance");
             r.log.error(problem.hint("add [unbalance.NAME] with station and magnitude"));
         }
         r.finish();
@@ -288,6 +289,7 @@ fn responses(r: &Reader, model: &Model, quantity: MotionQuantity) -> Vec<Probe> 
         model.probes.iter().filter(wanted).map(|p| Probe { quantity, ..p.clone() }).collect();
     if chosen.is_empty() && r.has_no_errors() {
         let problem = Problem::new(Kind::MissingKey, &r.span, format!("{} has no response probe", r.path));
+        let problem = problem.follows("probe");
         r.log.error(problem.hint("add [probe.NAME] with at, direction and quantity"));
     }
     chosen

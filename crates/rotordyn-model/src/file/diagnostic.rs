@@ -5,6 +5,7 @@ use rotordyn_units::names::nearest;
 use std::cell::{Cell, RefCell};
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
+use std::rc::Rc;
 
 /// A text that was read: the model file, or one `--set` argument.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,11 +101,21 @@ pub(crate) struct Problem {
     message: String,
     expected: Option<String>,
     hint: Option<String>,
+    /// Table of the file without whose own errors there would perhaps be no such problem.
+    follows: Option<&'static str>,
 }
 
 impl Problem {
     pub fn new(kind: Kind, span: &Range<usize>, message: impl Into<String>) -> Self {
-        Self { kind, warning: None, span: span.clone(), message: message.into(), expected: None, hint: None }
+        Self {
+            kind,
+            warning: None,
+            span: span.clone(),
+            message: message.into(),
+            expected: None,
+            hint: None,
+            follows: None,
+        }
     }
 
     pub fn expected(mut self, text: impl Into<String>) -> Self {
@@ -114,6 +125,12 @@ impl Problem {
 
     pub fn hint(mut self, text: impl Into<String>) -> Self {
         self.hint = Some(text.into());
+        self
+    }
+
+    /// Not reported beside an error of this table of the file, of which it may be a consequence.
+    pub fn follows(mut self, table: &'static str) -> Self {
+        self.follows = Some(table);
         self
     }
 
@@ -222,6 +239,10 @@ pub(crate) struct Log {
     missing: RefCell<HashMap<PlaceAndMessage, Vec<usize>>>,
     /// Places in `errors` of those that are not reported.
     retracted: RefCell<HashSet<usize>>,
+    /// Tables of the file with errors, whose consequences are not reported.
+    causes: RefCell<HashSet<String>>,
+    /// Starts of the items that a variant adds, with the names of the others of the kind.
+    added_items: RefCell<HashMap<usize, Rc<str>>>,
     warnings: RefCell<Vec<Problem>>,
     hints: RefCell<Vec<Problem>>,
     conflicts: RefCell<Vec<Problem>>,
@@ -242,6 +263,21 @@ impl Log {
             self.missing.borrow_mut().entry(key).or_default().push(errors.len());
         }
         errors.push(problem);
+    }
+
+    /// Names a table of the file that has errors: what follows from them is not reported.
+    pub fn add_cause(&self, table: &str) {
+        self.causes.borrow_mut().insert(table.into());
+    }
+
+    /// Record an item that a variant adds to others, of which it may be a misspelling.
+    pub fn add_item(&self, start: usize, others: Rc<str>) {
+        self.added_items.borrow_mut().insert(start, others);
+    }
+
+    /// Names of the other items of the kind, if a variant adds the item whose name starts there.
+    pub fn others_of_added_item(&self, start: usize) -> Option<Rc<str>> {
+        self.added_items.borrow().get(&start).cloned()
     }
 
     /// Whether names that may be meant are still looked for.
@@ -331,9 +367,13 @@ impl Log {
     }
 
     pub fn into_errors(self) -> Vec<Problem> {
-        let retracted = self.retracted.into_inner();
+        let (retracted, causes) = (self.retracted.into_inner(), self.causes.into_inner());
         let errors = self.errors.into_inner().into_iter().enumerate();
-        errors.filter(|(place, _)| !retracted.contains(place)).map(|(_, problem)| problem).collect()
+        let errors = errors.filter(|(place, _)| !retracted.contains(place)).map(|(_, problem)| problem);
+        let follows = |problem: &Problem| problem.follows.is_some_and(|table| causes.contains(table));
+        let (consequences, errors): (Vec<_>, Vec<_>) = errors.partition(follows);
+        // a cause is an error too, but what has errors must report one
+        if errors.is_empty() { consequences } else { errors }
     }
 
     /// Warnings, hints and conflicts.

@@ -17,8 +17,19 @@ impl<'a> Reader<'a> {
         let Some(all) = self.table_of(key, declared) else { return Vec::new() };
         let entries = all.table.entries();
         self.check_count(key, entries.len(), entries.get(MAX_ITEMS).map(|entry| &entry.key_span));
+        let is_key = |entry: &&Entry| {
+            let is_table = matches!(entry.node.value, Value::Table(_));
+            !is_table && declared.keys().any(|known| known.name() == entry.key)
+        };
+        if let Some(first) = entries.iter().find(is_key) {
+            let name = all.entry_name(&first.key);
+            let message = format!("{name} belongs to a {} with a name", key.about.name);
+            let problem = Problem::new(Kind::WrongType, &first.key_span, message);
+            self.log.error(problem.hint(format!("write [{}.NAME] instead of [{}]", all.path, all.path)));
+            self.log.add_cause(key.about.name);
+        }
         let mut items = Vec::new();
-        for entry in entries.iter().take(MAX_ITEMS) {
+        for entry in entries.iter().filter(|entry| !is_key(entry)).take(MAX_ITEMS) {
             let path = all.entry_name(&entry.key);
             self.check_item_name(key.about.name, entry);
             match &entry.node.value {

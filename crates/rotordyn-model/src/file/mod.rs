@@ -13,6 +13,7 @@ pub(crate) mod overlay;
 pub(crate) mod quantities;
 pub(crate) mod reader;
 pub(crate) mod renamed;
+mod synonyms;
 pub(crate) mod tree;
 
 pub use diagnostic::{DefaultValue, Diagnostic, Kind, ModelErrors, Source};

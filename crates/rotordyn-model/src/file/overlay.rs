@@ -8,6 +8,7 @@ use super::tree::{Entry, Node, Table, Value};
 use rotordyn_units::names::folder_problem;
 use std::collections::HashMap;
 use std::ops::Range;
+use std::rc::Rc;
 
 /// Tables whose entries are named items: `bearing.B`, `housing.A`.
 pub(crate) const COLLECTIONS: &[&str] = &[
@@ -119,6 +120,7 @@ pub(crate) fn apply_variant(root: &mut Table, wanted: Option<&str>, log: &Log) {
         let mut keys = Vec::new();
         key_starts(&overrides, &mut keys);
         log.add_variant(keys);
+        note_added_items(root, &overrides, log);
         merge(root, overrides);
     }
 }
@@ -198,6 +200,30 @@ fn remove(root: &mut Table, list: &Entry, log: &Log) {
     }
 }
 
+/// Most names of other items in a message.
+const MAX_NAMES: usize = 12;
+
+/// Records the items that a variant adds to others of their kind: they may be misspelt.
+fn note_added_items(root: &Table, overrides: &Table, log: &Log) {
+    for kind in COLLECTIONS {
+        let (Some(known), Some(given)) = (items(root, kind), items(overrides, kind)) else { continue };
+        let mut names: Vec<&str> = known.keys().take(MAX_NAMES).collect();
+        names.extend((known.entries().len() > MAX_NAMES).then_some("..."));
+        let names: Rc<str> = names.join(", ").into();
+        for entry in given.entries().iter().filter(|entry| known.get(&entry.key).is_none()) {
+            log.add_item(entry.key_span.start, Rc::clone(&names));
+        }
+    }
+}
+
+/// The named tables of a kind.
+fn items<'t>(table: &'t Table, kind: &str) -> Option<&'t Table> {
+    match table.get(kind).map(|entry| &entry.node.value) {
+        Some(Value::Table(items)) => Some(items),
+        _ => None,
+    }
+}
+
 /// Starts of all keys of a table and of those within.
 fn key_starts(table: &Table, found: &mut Vec<usize>) {
     for entry in table.entries() {
@@ -227,7 +253,15 @@ const MAX_PARTS: usize = 32;
 
 /// Apply one `--set PATH=VALUE`; the value is parsed as TOML, or taken as a string if it is not TOML
 /// (`20 um`).
-pub(crate) fn apply_set(root: &mut Table, path: &str, value: &str, sources: &mut Sources, log: &Log) {
+///
+/// `is_text`: whether the key wants a text, which may look like a number (`6208`).
+pub(crate) fn apply_set(
+    root: &mut Table,
+    [path, value]: [&str; 2],
+    is_text: bool,
+    sources: &mut Sources,
+    log: &Log,
+) {
     let text = format!("{path}={value}");
     let start = sources.push("--set", text);
     let value_start = start + path.len() + 1;
@@ -235,16 +269,13 @@ pub(crate) fn apply_set(root: &mut Table, path: &str, value: &str, sources: &mut
     let parsed = Table::parse(&format!("x={value}"), value_start.saturating_sub(2));
     let mut entries = parsed.map_or(Vec::new(), Table::into_entries);
     let mut node = match entries.pop() {
+        Some(Entry { node: Node { value: Value::Integer(_) | Value::Float(_), .. }, .. }) if is_text => {
+            Node { span, value: Value::Text(value.trim().to_string()) }
+        }
         Some(only) if entries.is_empty() && !value.contains('\n') => only.node,
         _ => Node { span, value: Value::Text(value.trim().to_string()) },
     };
-    let mut at = start;
-    let locate = |name| {
-        let span = at..at + str::len(name);
-        at = span.end + 1;
-        Part { name, span }
-    };
-    let mut parts: Vec<Part> = path.split('.').map(locate).collect();
+    let mut parts = path_parts(path, start);
     if parts.len() > MAX_PARTS {
         let message = format!("a path of {} parts; the model file has at most {MAX_PARTS}", parts.len());
         let problem = Problem::new(Kind::BadPath, &parts[MAX_PARTS].span, message);
@@ -271,6 +302,25 @@ pub(crate) fn apply_set(root: &mut Table, path: &str, value: &str, sources: &mut
 struct Part<'p> {
     name: &'p str,
     span: Range<usize>,
+}
+
+/// Parts of a path that starts at an offset; items of lists as `.0` or, as messages write them, `[0]`.
+fn path_parts(path: &str, start: usize) -> Vec<Part<'_>> {
+    let mut parts = Vec::new();
+    let mut at = start;
+    for name in path.split('.') {
+        let of_item = name.strip_suffix(']').and_then(|name| name.split_once('['));
+        match of_item.filter(|(list, item)| !list.is_empty() && item.parse::<usize>().is_ok()) {
+            Some((list, item)) => {
+                let item_at = at + list.len() + 1;
+                parts.push(Part { name: list, span: at..at + list.len() });
+                parts.push(Part { name: item, span: item_at..item_at + item.len() });
+            }
+            None => parts.push(Part { name, span: at..at + name.len() }),
+        }
+        at += name.len() + 1;
+    }
+    parts
 }
 
 /// A setting under way.

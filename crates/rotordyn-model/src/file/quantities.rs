@@ -37,7 +37,14 @@ impl<'a> Reader<'a> {
         if values.len() > 1 {
             let message =
                 format!("{} must be a single value, but has {}", self.entry_name(key), values.len());
-            self.log.error(Problem::new(Kind::WrongType, &node.span, message));
+            let problem = Problem::new(Kind::WrongType, &node.span, message);
+            self.log.error(match &node.value {
+                Value::Text(text) if values.len() == 2 => match with_decimal_point(text) {
+                    Some(number) => problem.hint(format!("the decimal sign is a point: \"{number}\"")),
+                    None => problem,
+                },
+                _ => problem,
+            });
         }
         values.first().copied()
     }
@@ -219,11 +226,19 @@ impl<'a> Reader<'a> {
         let of = |end: Key<Quantity>, value: Quantity| Key { value, ..end };
         let (from, to) = (r.value(&of(SPACED.from, each)), r.value(&of(SPACED.to, each)));
         let logarithmic = r.word(&SPACED.spacing);
+        if to <= from && r.has_no_errors() {
+            let word = if to < from { "above" } else { "equal to" };
+            let message = format!("{} is {word} {}", r.name(&SPACED.from), r.name(&SPACED.to));
+            let problem = Problem::new(Kind::OutOfRange, &r.span_of(&SPACED.from), message);
+            r.log.error(problem.expected("the lowest value, and the highest in `to`"));
+        }
         let count = match r.one_of(&[&SPACED.count, &SPACED.step]) {
             Some(given) if given.is(&SPACED.step) => {
                 let step = r.value(&of(SPACED.step, positive(each.dimension)));
                 let steps = (to - from) / step;
-                if !(1.0..1e6).contains(&steps) {
+                if !(1.0..1e6).contains(&steps) && !r.has_no_errors() {
+                    2
+                } else if !(1.0..1e6).contains(&steps) {
                     let message = format!("{} gives {steps:.0} steps", r.name(&SPACED.step));
                     r.error(Kind::OutOfRange, &SPACED.step, message);
                     2
@@ -233,10 +248,6 @@ impl<'a> Reader<'a> {
             }
             _ => r.count(&SPACED.count),
         };
-        if to <= from && r.has_no_errors() {
-            let message = format!("{} must be above {}", r.name(&SPACED.to), r.name(&SPACED.from));
-            r.error(Kind::OutOfRange, &SPACED.to, message);
-        }
         if logarithmic && from <= 0.0 && r.has_no_errors() {
             let message = format!("{} must be above zero for equal ratios", r.name(&SPACED.from));
             r.error(Kind::OutOfRange, &SPACED.from, message);
@@ -252,6 +263,15 @@ impl<'a> Reader<'a> {
         };
         sound.then(|| (0..count).map(value).collect())
     }
+}
+
+/// A text whose only comma stands between digits, `9,5 kg`, with a point in its place.
+fn with_decimal_point(text: &str) -> Option<String> {
+    let (whole, rest) = text.split_once(',')?;
+    let is_decimal = whole.ends_with(|c: char| c.is_ascii_digit())
+        && rest.starts_with(|c: char| c.is_ascii_digit())
+        && !rest.contains(',');
+    is_decimal.then(|| format!("{whole}.{rest}"))
 }
 
 /// Numbers that a key has by default.

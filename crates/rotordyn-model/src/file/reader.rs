@@ -6,6 +6,7 @@
 
 use super::diagnostic::{Kind, Log, Problem};
 use super::key::{Absent, Count, Declared, Flag, Key, SubTable, Table as Declaration, Text, Texts, Words};
+use super::synonyms::key_of_synonym;
 use super::tree::{Entry, Node, Table, Value};
 use rotordyn_units::names::nearest;
 use std::cell::RefCell;
@@ -27,6 +28,8 @@ pub(crate) struct Reader<'a> {
     pub log: &'a Log,
     errors_before: usize,
     requested_keys: RefCell<Requested>,
+    /// Keys of which one had to be chosen and none is given.
+    open_choices: RefCell<Vec<&'static str>>,
 }
 
 /// Keys in the order in which they were first asked for.
@@ -38,28 +41,6 @@ struct Requested {
 
 /// Most unknown keys of a table that are reported one by one: fewer than a person reads, and than the program prints.
 const MAX_UNKNOWN: usize = 20;
-
-/// Other names of tables and keys, with those of the file.
-const SYNONYMS: [(&str, &str); 18] = [
-    ("E", "young"),
-    ("G", "shear"),
-    ("nu", "poisson"),
-    ("rho", "density"),
-    ("diameter", "outer_diameter"),
-    ("type", "model"),
-    ("kind", "model"),
-    ("mass", "disc"),
-    ("impeller", "disc"),
-    ("spring", "bushing"),
-    ("damper", "bushing"),
-    ("pedestal", "housing"),
-    ("support", "housing"),
-    ("force", "load"),
-    ("wave_spring", "bearing"),
-    ("preload", "bearing"),
-    ("simulation", "study"),
-    ("analysis", "study"),
-];
 
 static EMPTY_TABLE: LazyLock<Table> = LazyLock::new(Table::default);
 
@@ -85,6 +66,7 @@ impl<'a> Reader<'a> {
             log,
             errors_before: log.error_count(),
             requested_keys: RefCell::default(),
+            open_choices: RefCell::default(),
         }
     }
 
@@ -189,8 +171,15 @@ impl<'a> Reader<'a> {
 
     /// [`missing`](Self::missing) with an example that depends on the model.
     pub fn missing_as(&self, key: &dyn Declared, example: &str) {
-        let problem = Problem::new(Kind::MissingKey, &self.span, self.missing_message(key.name()));
-        self.log.error(problem.hint(format!("add {} = {example}", key.name())));
+        let add = format!("{} = {example}", key.name());
+        let Some(others) = self.log.others_of_added_item(self.span.start) else {
+            let problem = Problem::new(Kind::MissingKey, &self.span, self.missing_message(key.name()));
+            return self.log.error(problem.hint(format!("add {add}")));
+        };
+        // an item that only the variant has is rather a misspelt one than one without its keys
+        let (kind, name) = self.path.split_once('.').unwrap_or(("item", &self.path));
+        let problem = Problem::new(Kind::UnknownName, &self.span, format!("unknown {kind} `{name}`"));
+        self.log.error_once(problem.hint(format!("known here: {others}; a new {kind} needs {add}")));
     }
 
     fn missing_message(&self, key: &str) -> String {
@@ -215,6 +204,9 @@ impl<'a> Reader<'a> {
             let problem = Problem::new(Kind::Conflict, &self.span_of(second), message);
             let names: Vec<&str> = keys.iter().map(|key| key.name()).collect();
             self.log.error(problem.hint(format!("give one of {}", names.join(", "))));
+        }
+        if given.is_empty() {
+            self.open_choices.borrow_mut().extend(keys.iter().map(|key| key.name()));
         }
         given.first().copied()
     }
@@ -406,26 +398,35 @@ impl<'a> Reader<'a> {
         names
     }
 
-    /// Report every unknown key (never requested); the missing key that it misspells is no longer reported.
+    /// Report every unknown key (never requested); the missing key that it misspells is no longer reported, nor are keys that
+    /// depend on a choice that is missing.
     pub fn finish(self) {
         let requested = self.requested_keys.borrow();
+        let unknown: Vec<&Entry> =
+            self.table.entries().iter().filter(|e| !requested.known.contains(&e.key)).collect();
+        if unknown.is_empty() {
+            return;
+        }
         let known: Vec<&str> = requested.names.iter().map(String::as_str).collect();
-        let mut unknown = self.table.entries().iter().filter(|e| !requested.known.contains(&e.key));
+        let declared = self.declared_names();
+        let choices = self.open_choices.borrow();
+        let is_open = !choices.is_empty()
+            && (!self.has_no_errors() || unknown.iter().any(|e| !declared.contains(&e.key.as_str())));
+        let mut unknown = unknown.into_iter().filter(|e| !is_open || !declared.contains(&e.key.as_str()));
         for entry in unknown.by_ref().take(MAX_UNKNOWN) {
-            if let Some(meant) = nearest(&entry.key, known.iter().copied()) {
-                self.log.retract_missing(self.errors_before, &self.span, self.missing_message(meant));
+            let synonym = key_of_synonym(&entry.key, &known);
+            let meant = synonym.or_else(|| nearest(&entry.key, known.iter().copied()));
+            if let Some(meant) = meant {
+                self.retract_missing(meant, &choices);
             }
             let message = format!("unknown key {}", self.entry_name(&entry.key));
             let problem = Problem::new(Kind::UnknownKey, &entry.key_span, message);
             let command = format!("rotordyn help {}", self.declared_path);
             let all_keys = format!("; `{}` explains them", command.trim_end());
-            let synonym = SYNONYMS.iter().find(|(other, key)| *other == entry.key && known.contains(key));
-            let problem = match entry.node.value {
-                _ if synonym.is_some() => {
-                    problem.hint(synonym.map_or(String::new(), |(_, key)| format!("did you mean `{key}`?")))
-                }
-                Value::Table(_) | Value::List(_) if self.path.is_empty() => {
-                    problem.suggest_all(&entry.key, &self.declared_names())
+            let problem = match (synonym, &entry.node.value) {
+                (Some(key), _) => problem.hint(format!("did you mean `{key}`?")),
+                (None, Value::Table(_) | Value::List(_)) if self.path.is_empty() => {
+                    problem.suggest_all(&entry.key, &declared)
                 }
                 _ => problem.suggest(self.log, &entry.key, known.iter().copied()),
             };
@@ -438,4 +439,28 @@ impl<'a> Reader<'a> {
             self.log.error(problem.hint(format!("the first {MAX_UNKNOWN} are reported one by one")));
         }
     }
+
+    /// Takes back that a key is missing, or another one of the keys of which one had to be chosen, and at the root what follows
+    /// from a table that is missing.
+    fn retract_missing(&self, meant: &str, choices: &[&str]) {
+        let retract = |message| self.log.retract_missing(self.errors_before, &self.span, message);
+        retract(self.missing_message(meant));
+        if choices.contains(&meant) {
+            choices.iter().for_each(|choice| retract(self.missing_message(choice)));
+        }
+        if self.path.is_empty() {
+            retract(missing_table(meant));
+            self.log.add_cause(meant);
+        }
+    }
+}
+
+/// Message of a table that the file lacks.
+fn missing_table(name: &str) -> String {
+    format!("the file has no [{name}] table")
+}
+
+/// The error of a file without a table that it needs; once, and not beside a misspelling of it.
+pub(crate) fn missing_table_problem(name: &str) -> Problem {
+    Problem::new(Kind::MissingKey, &(0..0), missing_table(name))
 }

@@ -67,7 +67,7 @@ fn model_at(
     sources.push("", " ".repeat(file_end));
     log.set_file_end(file_end);
     for (path, value) in parameter.settings(k) {
-        apply_set(&mut varied, &path, &value, &mut sources, &log);
+        apply_set(&mut varied, [&path, &value], false, &mut sources, &log);
     }
     let mut is_path = log.error_count() > 0;
     let model =

@@ -28,7 +28,7 @@ pub fn frf(found: &FrfResult, machine: &Machine) -> Vec<Named> {
                 continue;
             }
             let figure = Frf {
-                title: format!("FRFs for a force at {excitation}"),
+                title: frf_title(excitation, &machine.excitation_label(excitation)),
                 note: format!("{}, {:.0} rpm", machine.model.title, found.speed * TO_RPM),
                 quantity: found.name().into(),
                 unit: typographic_unit(unit),
@@ -40,6 +40,14 @@ pub fn frf(found: &FrfResult, machine: &Machine) -> Vec<Named> {
         }
     }
     figures
+}
+
+/// Title of the FRFs of an excitation, which names a point, or an axis and with its label the item.
+fn frf_title(excitation: &str, label: &str) -> String {
+    match label == excitation {
+        true => format!("FRFs for a force at {excitation}"),
+        false => format!("FRFs for a force along {label}"),
+    }
 }
 
 /// One FRF as a curve.
