@@ -315,9 +315,11 @@ fn decimal_comma(text: &str, at: usize) -> Option<String> {
         let (before, after) = (&line[..place], &line[place + 1..]);
         let whole = &before[before.trim_end_matches(is_digit).len()..];
         let decimals = &after[..after.len() - after.trim_start_matches(is_digit).len()];
-        let sign = before[..before.len() - whole.len()].trim_end_matches(['-', '+']).trim_end();
-        (!whole.is_empty() && !decimals.is_empty() && sign.ends_with('='))
-            .then(|| format!("{whole}.{decimals}"))
+        let head = &before[..before.len() - whole.len()];
+        let sign = if head.ends_with('-') { "-" } else { "" };
+        let assignment = head[..head.len() - sign.len()].trim_end();
+        let is_number = !whole.is_empty() && !decimals.is_empty() && assignment.ends_with('=');
+        is_number.then(|| format!("{sign}{whole}.{decimals}"))
     })
 }
 
