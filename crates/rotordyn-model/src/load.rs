@@ -311,7 +311,7 @@ fn decimal_comma(text: &str, at: usize) -> Option<String> {
     let line = text[line_start..].lines().next()?;
     let commas = line.match_indices(',').map(|(place, _)| place);
     let is_digit = |c: char| c.is_ascii_digit();
-    commas.filter(|place| line_start + place <= at).last().and_then(|place| {
+    commas.filter(|place| line_start + place <= at).next_back().and_then(|place| {
         let (before, after) = (&line[..place], &line[place + 1..]);
         let whole = &before[before.trim_end_matches(is_digit).len()..];
         let decimals = &after[..after.len() - after.trim_start_matches(is_digit).len()];
