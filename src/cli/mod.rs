@@ -71,7 +71,7 @@ mod update_warnings;
 mod usage;
 mod validate;
 
-use outcome::{Outcome, finish, print_model_warnings, print_written_files, report};
+use outcome::{Outcome, finish, print_json, print_model_warnings, print_written_files, report};
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::PathBuf;
@@ -276,34 +276,4 @@ fn studies_of(
     let outcome = finish(job, &wanted, written, study.map_or("run", Study::name))?;
     print_model_warnings(terminal, &loaded);
     Ok(outcome)
-}
-
-/// Prints the JSON document with errors, version and exit code.
-fn print_json(outcome: Outcome, code: u8, terminal: &Terminal) {
-    let mut document = outcome.document;
-    if let Some(object) = document.as_object_mut() {
-        let with_study = |(study, failure): &(&str, Failure)| {
-            let mut error = failure.to_json();
-            error["study"] = json!(study);
-            error
-        };
-        // Results have the warnings of their studies; those of the command, such as a long computation, come after them.
-        let printed = rotordyn::io::json::warnings(&terminal.warnings());
-        match (object.get_mut("warnings").and_then(|known| known.as_array_mut()), printed.as_array()) {
-            (Some(known), Some(printed)) => {
-                let missing: Vec<_> =
-                    printed.iter().filter(|warning| !known.contains(warning)).cloned().collect();
-                known.extend(missing);
-            }
-            _ => {
-                object.insert("warnings".into(), printed);
-            }
-        }
-        object.entry("schema").or_insert_with(|| json!(rotordyn::io::json::SCHEMA));
-        object.insert("program".into(), "rotordyn".into());
-        object.insert("version".into(), env!("CARGO_PKG_VERSION").into());
-        object.insert("exit_code".into(), code.into());
-        object.insert("errors".into(), outcome.failures.iter().map(with_study).collect());
-    }
-    terminal.print_document(&format!("{document}\n"));
 }

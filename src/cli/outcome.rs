@@ -153,3 +153,33 @@ pub(super) fn report(terminal: &Terminal, study: &str, failure: &Failure) {
     let place = if study.is_empty() { String::new() } else { format!("{study}: ") };
     terminal.error(&format!("{place}{}", failure.message()));
 }
+
+/// Prints the JSON document with errors, version and exit code.
+pub(super) fn print_json(outcome: Outcome, code: u8, terminal: &Terminal) {
+    let mut document = outcome.document;
+    if let Some(object) = document.as_object_mut() {
+        let with_study = |(study, failure): &(&str, Failure)| {
+            let mut error = failure.to_json();
+            error["study"] = json!(study);
+            error
+        };
+        // Results have the warnings of their studies; those of the command, such as a long computation, come after them.
+        let printed = rotordyn::io::json::warnings(&terminal.warnings());
+        match (object.get_mut("warnings").and_then(|known| known.as_array_mut()), printed.as_array()) {
+            (Some(known), Some(printed)) => {
+                let missing: Vec<_> =
+                    printed.iter().filter(|warning| !known.contains(warning)).cloned().collect();
+                known.extend(missing);
+            }
+            _ => {
+                object.insert("warnings".into(), printed);
+            }
+        }
+        object.entry("schema").or_insert_with(|| json!(rotordyn::io::json::SCHEMA));
+        object.insert("program".into(), "rotordyn".into());
+        object.insert("version".into(), env!("CARGO_PKG_VERSION").into());
+        object.insert("exit_code".into(), code.into());
+        object.insert("errors".into(), outcome.failures.iter().map(with_study).collect());
+    }
+    terminal.print_document(&format!("{document}\n"));
+}

@@ -7,8 +7,7 @@ use serde_json::json;
 
 use super::args::Output;
 use super::failure::Failure;
-use super::outcome::Outcome;
-use super::print_json;
+use super::outcome::{Outcome, print_json};
 use super::terminal::Terminal;
 
 /// Prints what is wrong with the arguments, or the help or version that they ask for; returns the exit code.

@@ -101,8 +101,10 @@ fn help_can_be_copied() {
         let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(words.contains(folder), "{help}");
     }
-    assert!(output_of(rotordyn().args(["update", "--help"])).contains("[default: frequency,mac]"));
-    assert!(output_of(rotordyn().args(["export", "--help"])).contains("[default: csv,uff,mat]"));
+    for (command, default) in [("update", "[default: frequency,mac]"), ("export", "[default: csv,uff,mat]")] {
+        let help = output_of(rotordyn().args([command, "--help"]));
+        assert!(help.split_whitespace().collect::<Vec<_>>().join(" ").contains(default), "{help}");
+    }
 }
 
 #[test]

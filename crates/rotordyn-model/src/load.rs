@@ -311,13 +311,15 @@ fn decimal_comma(text: &str, at: usize) -> Option<String> {
     let line = text[line_start..].lines().next()?;
     let commas = line.match_indices(',').map(|(place, _)| place);
     let is_digit = |c: char| c.is_ascii_digit();
-    commas.filter(|place| line_start + place <= at).last().and_then(|place| {
+    commas.filter(|place| line_start + place <= at).next_back().and_then(|place| {
         let (before, after) = (&line[..place], &line[place + 1..]);
         let whole = &before[before.trim_end_matches(is_digit).len()..];
         let decimals = &after[..after.len() - after.trim_start_matches(is_digit).len()];
-        let sign = before[..before.len() - whole.len()].trim_end_matches(['-', '+']).trim_end();
-        (!whole.is_empty() && !decimals.is_empty() && sign.ends_with('='))
-            .then(|| format!("{whole}.{decimals}"))
+        let head = &before[..before.len() - whole.len()];
+        let sign = if head.ends_with('-') { "-" } else { "" };
+        let assignment = head[..head.len() - sign.len()].trim_end();
+        let is_number = !whole.is_empty() && !decimals.is_empty() && assignment.ends_with('=');
+        is_number.then(|| format!("{sign}{whole}.{decimals}"))
     })
 }
 

@@ -130,15 +130,17 @@ impl Places {
             [] => {
                 let what = if kinds == ["station"] { "station" } else { "place" };
                 let problem = Problem::new(Kind::UnknownName, span, format!("unknown {what} `{text}`"));
-                let problem = match missing_kind(text, kinds) {
+                let kind = missing_kind(text, kinds);
+                let problem = match kind {
                     Some(kind) => problem.follows(kind),
                     None => problem,
                 };
-                if !text.contains('.') && !self.list.iter().any(|place| place.name.starts_with("station.")) {
+                let is_station = kind == Some("station") || !text.contains('.');
+                if is_station && !self.list.iter().any(|place| place.name.starts_with("station.")) {
                     let problem = missing_table_problem("station").follows("station");
-                    let example =
-                        format!("add [station] with the positions along the shaft: {text} = \"100 mm\"");
-                    r.log.error_once(problem.hint(example));
+                    let example = format!("{} = \"100 mm\"", short(text));
+                    let hint = format!("add [station] with the positions along the shaft: {example}");
+                    r.log.error_once(problem.hint(hint));
                     return None;
                 }
                 if let Some(ends) = self.connections.get(text) {

@@ -22,10 +22,10 @@ impl<'a> Reader<'a> {
             !is_table && declared.keys().any(|known| known.name() == entry.key)
         };
         if let Some(first) = entries.iter().find(is_key) {
-            let name = all.entry_name(&first.key);
-            let message = format!("{name} belongs to a {} with a name", key.about.name);
-            let problem = Problem::new(Kind::WrongType, &first.key_span, message);
-            self.log.error(problem.hint(format!("write [{}.NAME] instead of [{}]", all.path, all.path)));
+            let path = &all.path;
+            let problem =
+                Problem::new(Kind::WrongType, &first.key_span, format!("[{path}] has keys but no name"));
+            self.log.error_once(problem.hint(format!("write [{path}.NAME], with a name of your choice")));
             self.log.add_cause(key.about.name);
         }
         let mut items = Vec::new();
