@@ -12,6 +12,9 @@ use rotordyn_linalg::Complex64;
 /// 1 − MAC of the shape at a pole that is not refined: that of an equal mixture of two orthogonal shapes.
 pub(super) const NOT_REFINED: f64 = 0.5;
 
+/// Share of the squared distance to the nearer pole of two in the variance: the interval of 95 % covers both.
+const OF_TWO: f64 = 0.5;
+
 /// Squared errors of a mode by what it may be instead.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Doubt {
@@ -46,7 +49,8 @@ impl Doubt {
         let own = measured_shape(problem, at, m);
         let likeness = [first, first + 1].map(|k| mac(&own, &measured_shape(problem, &two, k)));
         let nearer = usize::from(likeness[1] > likeness[0]);
-        Self::new(at.poles[m].value, pair[nearer].value, 1.0 - likeness[nearer])
+        let whole = Self::new(at.poles[m].value, pair[nearer].value, 1.0 - likeness[nearer]);
+        Self { pole: whole.pole.map(|square| OF_TWO * square), ..whole }
     }
 
     /// A mode that may be one with its neighbour.
