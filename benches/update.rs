@@ -45,6 +45,7 @@ fn measured() -> Target {
         frequency_error: 0.0,
         damping_error: 0.0,
         shape_error: 0.0,
+        quality_warnings: Vec::new(),
         shape,
     };
     let target = Target { speed: 0.0, sensors, modes: vec![wide.clone(); 6], frfs: None };

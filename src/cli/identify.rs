@@ -18,7 +18,7 @@ use rotordyn::io::{json, machine_records, measured};
 use rotordyn::model::{Model, Quantity};
 use rotordyn::signal::impact::{self, Estimator, ImpactTest, ImpactWindows};
 use rotordyn::signal::record::{FrfMatrix, Kind, MeasuredData, Points, Record, RecordError};
-use rotordyn::units::{self, parse};
+use rotordyn::units;
 use rotordyn::warning::Code;
 use serde_json::json;
 
@@ -28,7 +28,7 @@ use super::folder_lock::FolderLock;
 use super::identified_file::{Identified, Modes};
 use super::limits::limits;
 use super::machine::ModelSource;
-use super::measured::range;
+use super::measured::{parse_positive, range};
 use super::operational;
 use super::terminal::Terminal;
 use super::{Outcome, print_written_files};
@@ -183,21 +183,6 @@ fn with_file_name(path: &Path, error: Error) -> Failure {
             path.display()
         )),
         error => Failure::Input(format!("{}: {error}", path.display())),
-    }
-}
-
-/// Parses a positive quantity of a flag.
-fn parse_positive(
-    name: &str,
-    text: Option<&String>,
-    dimension: units::Dimension,
-) -> Result<Option<f64>, Failure> {
-    let Some(text) = text else { return Ok(None) };
-    let example = if dimension == units::TIME { "0.5 s" } else { "12 kHz" };
-    match parse(text, dimension) {
-        Ok(value) if value > 0.0 => Ok(Some(value)),
-        Ok(_) => Err(Failure::Input(format!("{name} \"{text}\" is not positive; write it as \"{example}\""))),
-        Err(error) => Err(Failure::Input(format!("{name}: {error}; write it as \"{example}\""))),
     }
 }
 

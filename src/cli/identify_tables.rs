@@ -2,10 +2,14 @@
 
 use rotordyn::identify::sdof::{circle_fit, half_power_fit};
 use rotordyn::identify::{ModalIdentification, quantity_of};
+use rotordyn::io::identified_modes::noise_only_names;
 use rotordyn::signal::Complex;
 use rotordyn::signal::record::FrfMatrix;
 
 use super::terminal::{Terminal, counted, number};
+
+/// FRFs of noise that are named.
+const SHOWN: usize = 4;
 
 /// Table of modes, dropped modes and SDOF fits.
 pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix) {
@@ -50,10 +54,28 @@ pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix
         "doubt",
     ];
     terminal.table(&title, &header, &rows);
-    let worst = found.errors.iter().flatten().copied().fold(0.0, f64::max);
+    let noise = noise_only_names(found);
+    let mut errors: Vec<f64> = found.errors.iter().flatten().copied().collect();
+    if noise.len() < errors.len() {
+        let columns = found.references.len();
+        found.noise_only().iter().for_each(|(r, e)| errors[r * columns + e] = 0.0);
+    }
+    let worst = errors.iter().copied().fold(0.0, f64::max);
+    let counted = match noise.len() {
+        0 => "all FRFs".to_string(),
+        count if count == errors.len() => {
+            format!("all {count} FRFs, which are noise for more than half of their power")
+        }
+        count => format!(
+            "the {} FRFs above noise ({count} are noise for more than half of their power: {}{})",
+            errors.len() - count,
+            noise[..count.min(SHOWN)].join(", "),
+            if count > SHOWN { ", ..." } else { "" }
+        ),
+    };
     terminal.print(&format!(
-        "  +- is one standard error, with the error of the model; damped Hz is Im(pole)/2pi, natural Hz |pole|/2pi.\n  MPC (modal phase collinearity) is 1 for a real mode.\n  Fit error {:.2} % over all \
-         FRFs, {:.2} % for the worst FRF.",
+        "  +- is one standard error, with the error of the model; damped Hz is Im(pole)/2pi, natural Hz |pole|/2pi.\n  MPC (modal phase collinearity) is 1 for a real mode.\n  Fit error {:.2} % over {counted}, {:.2} % for the \
+         worst FRF.",
         100.0 * found.total_error,
         100.0 * worst
     ));

@@ -42,7 +42,9 @@ pub fn read_one(
         Some(text) => Some(units::parse(text, SPEED).map_err(|e| Failure::Input(format!("--speed: {e}")))?),
         None => None,
     };
+    let window = parse_positive("--exponential-window", args.exponential_window.as_ref(), units::TIME)?;
     let reading = ReadSettings {
+        added_decay: window.map_or(0.0, |time_constant| 1.0 / time_constant),
         mapping: args.mapping.as_deref(),
         band,
         speed,
@@ -84,6 +86,21 @@ pub fn range(text: &str, flag: &str) -> Result<[f64; 2], Failure> {
     if low < high { Ok([low, high]) } else { Err(wrong("the lower end must be below the upper end")) }
 }
 
+/// Parses a positive quantity of a flag.
+pub fn parse_positive(
+    name: &str,
+    text: Option<&String>,
+    dimension: units::Dimension,
+) -> Result<Option<f64>, Failure> {
+    let Some(text) = text else { return Ok(None) };
+    let example = if dimension == units::TIME { "0.5 s" } else { "12 kHz" };
+    match units::parse(text, dimension) {
+        Ok(value) if value > 0.0 => Ok(Some(value)),
+        Ok(_) => Err(Failure::Input(format!("{name} \"{text}\" is not positive; write it as \"{example}\""))),
+        Err(error) => Err(Failure::Input(format!("{name}: {error}; write it as \"{example}\""))),
+    }
+}
+
 /// Results folder; default `out/NAME_ending`.
 pub fn folder(out: Option<&PathBuf>, model: &str, suffix: &str) -> PathBuf {
     out.cloned().unwrap_or_else(|| Path::new("out").join(format!("{model}_{suffix}")))
@@ -106,7 +123,8 @@ pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &Mod
     let has_errors = target.modes.iter().any(|m| m.frequency_error > 0.0);
     let dash = || "-".to_string();
     let error = |value: f64| if value > 0.0 { number(value, 2) } else { dash() };
-    let mut rows: Vec<(f64, [String; 9])> = Vec::new();
+    let has_doubts = target.modes.iter().any(|m| !m.quality_warnings.is_empty());
+    let mut rows: Vec<(f64, [String; 10])> = Vec::new();
     for (k, measured) in target.modes.iter().enumerate() {
         let pair = state.paired_mode(k);
         let hz = measured.frequency_hz;
@@ -121,6 +139,7 @@ pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &Mod
             computed(&|mode| per_cent(mode.zeta())),
             pair.map_or_else(dash, |(_, mac)| format!("{mac:.3}")),
             pair.map_or("(not in the model)".into(), |(mode, _)| mode.label.clone()),
+            measured.doubts(),
         ];
         rows.push((hz, row));
     }
@@ -129,15 +148,16 @@ pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &Mod
         let mode = &state.modes[k];
         let hz = mode.frequency_hz();
         if (low..=high).contains(&hz) {
-            let mut row: [String; 9] = std::array::from_fn(|_| dash());
+            let mut row: [String; 10] = std::array::from_fn(|_| dash());
             row[2] = format!("{hz:.3}");
             row[6] = per_cent(mode.zeta());
             row[8] = format!("{} (not measured)", mode.label);
+            row[9].clear();
             rows.push((hz, row));
         }
     }
     rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-    const HEADER: [&str; 9] = [
+    const HEADER: [&str; 10] = [
         "measured Hz",
         "+-",
         "computed Hz",
@@ -147,8 +167,13 @@ pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &Mod
         "computed zeta %",
         "MAC",
         "mode",
+        "doubt",
     ];
-    let shown = |k: &usize| has_errors || HEADER[*k] != "+-";
+    let shown = |k: &usize| match HEADER[*k] {
+        "+-" => has_errors,
+        "doubt" => has_doubts,
+        _ => true,
+    };
     let columns: Vec<usize> = (0..HEADER.len()).filter(shown).collect();
     let rows: Vec<Vec<String>> =
         rows.into_iter().map(|(_, row)| columns.iter().map(|k| row[*k].clone()).collect()).collect();

@@ -19,21 +19,36 @@ const FAR: f64 = 0.1;
 /// Culprits, and pairs of the start, that are named.
 const SHOWN: usize = 3;
 
-/// Warns about shapes whose error is larger than what is assumed of all.
+/// Warns about shapes whose error is larger than what is assumed of all: by noise, and by a doubt of the identification.
 pub fn warn_of_uncertain_shapes<'a>(
     terminal: &Terminal,
     fitted: impl Iterator<Item = &'a TargetMode>,
     least: f64,
 ) {
-    let uncertain: Vec<&TargetMode> = fitted.filter(|mode| mode.shape_error > least).collect();
-    if uncertain.is_empty() {
-        return;
+    let uncertain = fitted.filter(|mode| mode.shape_error > least);
+    let (doubtful, noisy): (Vec<_>, Vec<_>) = uncertain.partition(|mode| !mode.quality_warnings.is_empty());
+    for (modes, advice) in [
+        (noisy, "excite these modes at another point for better shapes"),
+        (
+            doubtful,
+            "more references, a finer resolution or another --band may separate what is mixed in them",
+        ),
+    ] {
+        if !modes.is_empty() {
+            terminal.warn(&uncertain_shapes(&modes, least).advise(advice));
+        }
     }
-    let all = |of: &dyn Fn(&TargetMode) -> String| uncertain.iter().map(|mode| of(mode)).collect::<Vec<_>>();
-    let hz = all(&|mode| format!("{:.3} Hz", mode.frequency_hz));
+}
+
+fn uncertain_shapes(modes: &[&TargetMode], least: f64) -> Warning {
+    let all = |of: &dyn Fn(&TargetMode) -> String| modes.iter().map(|mode| of(mode)).collect::<Vec<_>>();
+    let hz = all(&|mode| match mode.doubts() {
+        doubts if doubts.is_empty() => format!("{:.3} Hz", mode.frequency_hz),
+        doubts => format!("{:.3} Hz ({doubts})", mode.frequency_hz),
+    });
     let errors = all(&|mode| number(mode.shape_error, 2));
-    let (shapes, have) = if uncertain.len() == 1 { ("shape", "has") } else { ("shapes", "have") };
-    let warning = Warning::new(
+    let (shapes, have) = if modes.len() == 1 { ("shape", "has") } else { ("shapes", "have") };
+    Warning::new(
         Code::MeasuredData,
         "",
         format!(
@@ -43,8 +58,7 @@ pub fn warn_of_uncertain_shapes<'a>(
             listed(&errors),
             number(least, 2)
         ),
-    );
-    terminal.warn(&warning.advise("excite these modes at another point for better shapes"));
+    )
 }
 
 /// Warnings of the fit: a model that does not explain the data, correlated parameters, active bounds, no convergence.

@@ -6,6 +6,7 @@ mod bearings;
 mod belts;
 mod commands;
 mod compare;
+mod doubtful_modes;
 mod failures;
 mod first_changes;
 #[cfg(target_os = "linux")]

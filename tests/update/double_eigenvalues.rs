@@ -75,6 +75,7 @@ fn mode(frequency_hz: f64, shape: Vec<Complex64>) -> TargetMode {
         damping_error: 0.0,
         shape,
         shape_error: 0.0,
+        quality_warnings: Vec::new(),
     }
 }
 

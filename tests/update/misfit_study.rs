@@ -156,6 +156,7 @@ impl Machine {
             frequency_error: 0.0,
             damping_error: 0.0,
             shape_error: 0.0,
+            quality_warnings: Vec::new(),
             shape,
         };
         let any = one(self.top_hz, vec![Complex64::new(1.0, 0.0); sensors.len()]);

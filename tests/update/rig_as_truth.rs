@@ -72,6 +72,7 @@ pub fn measured(model: Model) -> Target {
         frequency_error: 0.0,
         damping_error: 0.0,
         shape_error: 0.0,
+        quality_warnings: Vec::new(),
         shape: vec![Complex64::new(1.0, 0.0); sensors.len()],
     };
     let state = ModelState::new(model, &Target { modes: vec![wide; 6], ..empty.clone() }, None).unwrap();
@@ -91,6 +92,7 @@ pub fn measured(model: Model) -> Target {
                 frequency_error: 0.0,
                 damping_error: 0.0,
                 shape_error: 0.0,
+                quality_warnings: Vec::new(),
                 shape,
             }
         })

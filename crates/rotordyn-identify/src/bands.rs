@@ -247,5 +247,5 @@ fn finish(all: &mut ModalIdentification) {
             *error = fit_error(measured, model);
         }
     }
-    all.total_error = total_error(&all.errors);
+    all.total_error = total_error(&all.errors, &all.measured);
 }

@@ -14,6 +14,8 @@
 //! | `two_modes` | two close poles: two modes, or one mode that differs between the FRFs |
 //! | `window`, `principal_outputs` | FRFs in a part of the band, on few directions, for cheap fits |
 //! | `uncertainty`, `misfit`, `nonlinearity` | standard errors of poles: noise (jackknife) and error of the modal model |
+//! | `truncation` | error by the modes outside the band |
+//! | `doubts` | what the doubts of a mode add to its standard errors |
 //! | `mode_coherence` | coherence at the resonances |
 //! | `single_lines` | lines that stand alone, such as those of the mains |
 //! | `shape_errors` | standard errors of shapes |
@@ -30,6 +32,7 @@
 mod bands;
 mod data;
 mod dense;
+mod doubts;
 mod error;
 mod lsfd;
 pub mod mac;
@@ -52,6 +55,7 @@ mod settings;
 mod shape_errors;
 mod single_lines;
 mod stabilisation;
+mod truncation;
 mod two_modes;
 mod uncertainty;
 pub mod whirl;

@@ -31,6 +31,7 @@ impl Residual {
 }
 
 /// Basis functions of the fit. Rows: for each input the real, then the imaginary parts of all lines.
+#[derive(Clone)]
 pub(super) struct Basis {
     s: Vec<Complex64>,
     /// s^p, (s + σ)^p with an exponential window.
@@ -38,6 +39,8 @@ pub(super) struct Basis {
     inputs: usize,
     residual_terms: ResidualTerms,
     added_decay: f64,
+    /// Poles with a free residue of every FRF, beside the residual terms.
+    free: Vec<Complex64>,
 }
 
 /// Result of LSFD.
@@ -79,7 +82,13 @@ impl Basis {
             inputs: data.inputs(),
             residual_terms: data.residual_terms,
             added_decay: data.added_decay,
+            free: Vec::new(),
         }
+    }
+
+    /// With poles that have a free residue of every FRF.
+    pub fn with_free(&self, free: &[Complex64]) -> Self {
+        Self { free: free.to_vec(), ..self.clone() }
     }
 
     pub fn rows(&self) -> usize {
@@ -113,16 +122,24 @@ impl Basis {
         upper.into_iter().chain(terms.has_lower().then_some(Residual::Lower)).collect()
     }
 
-    /// Design matrix: columns of Re ψ_r, Im ψ_r (mode by mode), then of the residual terms (input by input).
+    /// Design matrix: columns of Re ψ_r, Im ψ_r (mode by mode), then of the residual terms (input by input),
+    /// then of the free residues.
     pub fn design(&self, poles: &[Pole]) -> DMatrix<f64> {
         let modes = poles.len();
         let residuals = self.residuals();
-        let mut a = DMatrix::zeros(self.rows(), 2 * modes + residuals.len() * self.inputs);
+        let first_free = 2 * modes + residuals.len() * self.inputs;
+        let mut a = DMatrix::zeros(self.rows(), first_free + 2 * self.free.len() * self.inputs);
         for (r, pole) in poles.iter().enumerate() {
             for (i, l) in pole.participation.iter().enumerate() {
                 let g = |s: Complex64| [l / (s - pole.value), l.conj() / (s - pole.value.conj())];
                 self.write_columns(&mut a, [2 * r, 2 * r + 1], i, g);
             }
+        }
+        let free = self.free.iter().flat_map(|pole| (0..self.inputs).map(move |i| (i, pole)));
+        for (k, (i, pole)) in free.enumerate() {
+            let column = first_free + 2 * k;
+            let g = |s: Complex64| [(s - pole).inv(), (s - pole.conj()).inv()];
+            self.write_columns(&mut a, [column, column + 1], i, g);
         }
         let lines = self.s.len();
         let columns = (0..self.inputs).flat_map(|i| residuals.iter().map(move |residual| (i, residual)));

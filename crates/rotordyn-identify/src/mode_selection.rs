@@ -7,6 +7,7 @@
 use std::f64::consts::TAU;
 
 use super::data::Data;
+use super::doubts::{Doubt, NOT_REFINED};
 use super::lsfd::Fit;
 use super::mac::mac;
 use super::misfit::{outputs_differ, with_model_error};
@@ -16,6 +17,7 @@ use super::plscf::{Pole, StablePole, damping_ratio};
 use super::refine::{FitPoint, MIN_LOCAL_GAIN, Problem, significance};
 use super::reweight::reweight;
 use super::shape_errors::shape_variances;
+use super::truncation::truncation_errors;
 use super::two_modes::are_two;
 use super::uncertainty::{PoleCovariance, covariance, standard_errors, white_noise_covariance};
 use super::{DroppedPole, QualityWarning, Settings};
@@ -28,6 +30,8 @@ pub(super) struct SelectedModes {
     pub covariance: Vec<PoleCovariance>,
     /// E|δψ|² `[mode][output]`.
     pub shape_variances: Vec<Vec<f64>>,
+    /// 1 − MAC of each shape by what the mode may be instead, and by the modes outside the band.
+    pub shape_doubts: Vec<f64>,
     pub significance: Vec<f64>,
     pub quality_warnings: Vec<Vec<QualityWarning>>,
 }
@@ -70,35 +74,42 @@ pub(super) fn select_modes(
     let splits = pairs::splits(&problem, &settled.at, settings);
     let (settled, mut maybe_two) = with_pairs(&problem, settled, splits, settings, dropped)?;
     // A duplicate was taken for the same mode by its shape alone.
-    maybe_two.extend(&settled.duplicates);
-    let at = settled.at;
+    let RefinedModes { at, mut covariance, significance, duplicates } = settled;
     let differ = outputs_differ(&problem, &at);
     let mut quality_warnings = vec![Vec::new(); at.poles.len()];
-    for value in maybe_two {
-        let distance = |m: &usize| (at.poles[*m].value - value).norm();
-        let nearest = (0..at.poles.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        if let Some(m) =
-            nearest.filter(|m| !differ[*m] && !quality_warnings[*m].contains(&QualityWarning::MaybeTwo))
-        {
+    let mut doubts = vec![Doubt::default(); at.poles.len()];
+    let nearest = |value: Complex64| {
+        let distance = |m: usize| (at.poles[m].value - value).norm();
+        (0..at.poles.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+    };
+    let of_duplicate = |pole: Pole| {
+        let other = at.poles[nearest(pole.value)?].clone();
+        Some(MaybeTwo { value: pole.value, pair: [other, pole] })
+    };
+    maybe_two.extend(duplicates.into_iter().filter_map(of_duplicate));
+    for MaybeTwo { value, pair } in &maybe_two {
+        let Some(m) = nearest(*value).filter(|m| !differ[*m]) else { continue };
+        if !quality_warnings[m].contains(&QualityWarning::MaybeTwo) {
             quality_warnings[m].push(QualityWarning::MaybeTwo);
         }
+        doubts[m] = doubts[m].or(Doubt::of_two(&problem, &at, m, pair));
     }
-    let mut covariance = settled.covariance;
     for (m, neighbour) in pairs::indistinct(&problem, &at) {
         quality_warnings[m].push(QualityWarning::MaybeOne);
-        // One mode would lie between the two.
-        let apart = 0.5 * (at.poles[neighbour].value - at.poles[m].value);
-        covariance[m][0] += apart.re * apart.re;
-        covariance[m][1] += apart.im * apart.im;
+        doubts[m] = doubts[m].or(Doubt::of_one(&problem, &at, m, neighbour));
     }
-    at.poles
-        .iter()
-        .zip(&mut quality_warnings)
-        .filter(|(pole, _)| pole.held)
-        .for_each(|(_, own)| own.push(QualityWarning::Held));
     for (m, pull) in pulls(&problem, &at) {
+        quality_warnings[m].push(QualityWarning::Held);
+        doubts[m].shape = doubts[m].shape.max(NOT_REFINED);
         covariance[m][0] += pull.re * pull.re;
         covariance[m][1] += pull.im * pull.im;
+    }
+    for (doubt, truncation) in doubts.iter_mut().zip(truncation_errors(&problem, &at)) {
+        *doubt = doubt.or(truncation);
+    }
+    for (covariance, doubt) in covariance.iter_mut().zip(&doubts) {
+        covariance[0] += doubt.pole[0];
+        covariance[1] += doubt.pole[1];
     }
     let fit = problem.fit(&at);
     let shape_variances = shape_variances(&problem, &at, &covariance);
@@ -107,7 +118,8 @@ pub(super) fn select_modes(
         fit,
         covariance,
         shape_variances,
-        significance: settled.significance,
+        shape_doubts: doubts.into_iter().map(|doubt| doubt.shape).collect(),
+        significance,
         quality_warnings,
     })
 }
@@ -135,25 +147,31 @@ fn pulls(problem: &Problem, at: &FitPoint) -> Vec<(usize, Complex64)> {
     (0..at.poles.len()).filter(|m| at.poles[*m].held).map(pull).collect()
 }
 
-/// The fit with the pairs that are certain, and the poles of modes that may be two.
+/// A pole of a mode that may be two, and the two.
+struct MaybeTwo {
+    value: Complex64,
+    pair: [Pole; 2],
+}
+
+/// The fit with the pairs that are certain, and the modes that may be two.
 fn with_pairs(
     problem: &Problem,
     before: RefinedModes,
     splits: Vec<Split>,
     settings: &Settings,
     dropped: &mut Vec<DroppedPole>,
-) -> Option<(RefinedModes, Vec<Complex64>)> {
+) -> Option<(RefinedModes, Vec<MaybeTwo>)> {
     let (mut poles, mut maybe_two, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
     for (pole, split) in before.at.poles.iter().zip(splits) {
         match split {
             Split::One(pole) => poles.push(pole),
-            Split::Maybe(_) => {
-                maybe_two.push(pole.value);
+            Split::Maybe(pair) => {
+                maybe_two.push(MaybeTwo { value: pole.value, pair });
                 poles.push(pole.clone());
             }
             Split::Two(pair) => {
-                pairs.push((pole.value, pole.value.re.abs() + (pair[0].value - pair[1].value).norm()));
-                poles.extend(pair);
+                poles.extend(pair.clone());
+                pairs.push(MaybeTwo { value: pole.value, pair });
             }
         }
     }
@@ -162,10 +180,11 @@ fn with_pairs(
     }
     let settled = settle(problem, poles, settings, dropped)?;
     // Of a pair a pole may be dropped again: the mode that remains may be two.
-    let left = |value: Complex64, reach: f64| {
+    let left = |MaybeTwo { value, pair: [a, b] }: &MaybeTwo| {
+        let reach = value.re.abs() + (a.value - b.value).norm();
         settled.at.poles.iter().filter(|pole| (pole.value - value).norm() < reach).count()
     };
-    maybe_two.extend(pairs.iter().filter(|(value, reach)| left(*value, *reach) < 2).map(|(value, _)| *value));
+    maybe_two.extend(pairs.into_iter().filter(|pair| left(pair) < 2));
     Some((settled, maybe_two))
 }
 
@@ -175,7 +194,7 @@ struct RefinedModes {
     covariance: Vec<PoleCovariance>,
     significance: Vec<f64>,
     /// Poles that were dropped as duplicates of a mode that remains.
-    duplicates: Vec<Complex64>,
+    duplicates: Vec<Pole>,
 }
 
 /// Refines poles to the minimum, drops faulty ones. `None` if no pole remains.
@@ -285,7 +304,7 @@ fn prune_poles(
 struct Fault {
     left: Vec<Pole>,
     /// The pole that was removed as a duplicate of another.
-    duplicate: Option<Complex64>,
+    duplicate: Option<Pole>,
 }
 
 /// Poles left after removing faulty ones; `None` if there is no faulty one. Drifted poles are removed
@@ -332,7 +351,7 @@ fn remove_faulty_poles(
     dropped.push(reason);
     let mut left = at.poles.clone();
     let removed = left.remove(worst);
-    Some(Fault { left, duplicate: duplicate.then_some(removed.value) })
+    Some(Fault { left, duplicate: duplicate.then_some(removed) })
 }
 
 fn drift_fault(

@@ -134,6 +134,7 @@ fn assemble_result(
             let mut shape_error = shape_error(&large, |o| {
                 found.shape_variances[m][o] * (data.output_scale[o] * before[k].norm()).powi(2)
             });
+            shape_error = shape_error.hypot(found.shape_doubts[m].sqrt()).min(1.0);
             let collinearity = mac::phase_collinearity(&large);
             let points = large.len();
             let (shape, participation) = if data.swapped { (small, large) } else { (large, small) };
@@ -172,15 +173,16 @@ fn assemble_result(
         inside
     });
     modes.sort_by(|a, b| a.pole.im.total_cmp(&b.pole.im));
+    let measured = curves(&data.values);
     ModalIdentification {
         modes,
         responses: frfs.responses.clone(),
         references: frfs.references.clone(),
         quantity: [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration][data.power as usize],
         frequencies: data.frequencies.clone(),
-        measured: curves(&data.values),
+        total_error: total_error(&errors, &measured),
+        measured,
         synthesised: curves(&model),
-        total_error: total_error(&errors),
         errors,
         upper: table(&|o, i| found.fit.upper[o][i] * scale(o, i)),
         lower: table(&|o, i| found.fit.lower[o][i] * scale(o, i)),

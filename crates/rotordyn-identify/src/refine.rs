@@ -236,6 +236,20 @@ impl<'a> Problem<'a> {
         sum(&without.residual) / sum(&at.residual).max(f64::MIN_POSITIVE)
     }
 
+    /// The fit with free residues of poles outside the band besides, and where a step takes its poles; `None` if they are not
+    /// distinguishable.
+    pub fn with_outside(&self, at: &FitPoint, outside: &[Complex64]) -> Option<(FitPoint, Vec<Pole>)> {
+        let basis = self.basis.with_free(outside);
+        let unknowns = at.x.nrows() + 2 * outside.len() * self.data.inputs();
+        if self.basis.rows() < 2 * unknowns {
+            return None;
+        }
+        let with = FitPoint::new(&basis, &self.y, at.poles.clone());
+        let (poles, _) = GaussNewtonStep::new(&basis, &with).damped_step(&with.poles, 1e-12)?;
+        let is_finite = poles.iter().all(|pole| pole.value.re.is_finite() && pole.value.im.is_finite());
+        is_finite.then(|| (FitPoint::new(&basis, &self.y, poles.clone()), poles))
+    }
+
     pub fn step(&self, at: &FitPoint) -> GaussNewtonStep {
         GaussNewtonStep::new(&self.basis, at)
     }

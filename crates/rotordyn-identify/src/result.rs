@@ -1,5 +1,6 @@
 //! Result of a modal identification.
 
+use super::data::{noise_rms, rms};
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::Quantity;
 use rotordyn_signal::record::Dof;
@@ -21,7 +22,8 @@ pub struct Mode {
     /// Standard error of the damping ratio.
     pub damping_error: f64,
     /// Standard deviation of √(1 − MAC) of the vector over the side with more DOFs, by its error; at most 1.
-    /// Of an uncertain shape of low phase collinearity the out-of-phase part counts as error.
+    /// Of an uncertain shape of low phase collinearity the out-of-phase part counts as error; of a doubtful mode, the distance to
+    /// what it may be instead, and √½ of a pole that is not refined.
     pub shape_error: f64,
     /// Modal phase collinearity (MPC) of the side with more DOFs, 1 for a real mode.
     pub collinearity: f64,
@@ -145,7 +147,7 @@ pub struct ModalIdentification {
     pub synthesised: Vec<Vec<Vec<Complex64>>>,
     /// ‖measured − synthesised‖ / ‖measured‖ of every FRF.
     pub errors: Vec<Vec<f64>>,
-    /// Root mean square of all errors.
+    /// Root mean square of the errors of all FRFs that are above noise ([`Self::noise_only`]); of all if none is.
     pub total_error: f64,
     /// Upper residual U (stiffness of modes above), lower residual V (mass of modes below) of receptances.
     pub upper: Vec<Vec<f64>>,
@@ -170,6 +172,13 @@ impl ModalIdentification {
         }
     }
 
+    /// FRFs of noise alone, by response and reference: their noise has more power than all else in them.
+    pub fn noise_only(&self) -> Vec<(usize, usize)> {
+        let all = self.measured.iter().enumerate();
+        let frfs = all.flat_map(|(r, row)| row.iter().enumerate().map(move |(e, frf)| ((r, e), frf)));
+        frfs.filter(|(_, frf)| is_noise(frf)).map(|(place, _)| place).collect()
+    }
+
     /// AutoMAC: MAC of every mode with every other, over the side with more DOFs.
     pub fn auto_mac(&self) -> Vec<Vec<f64>> {
         let shapes: Vec<&[Complex64]> = self.modes.iter().map(|m| self.larger_side_shape(m).1).collect();
@@ -187,8 +196,19 @@ pub(super) fn fit_error(measured: &[Complex64], model: &[Complex64]) -> f64 {
     if all > 0.0 { (rest / all).sqrt() } else { 0.0 }
 }
 
-/// RMS of the fit errors of all FRFs.
-pub(super) fn total_error(errors: &[Vec<f64>]) -> f64 {
-    let count = errors.iter().map(Vec::len).sum::<usize>() as f64;
-    (errors.iter().flatten().map(|e| e * e).sum::<f64>() / count).sqrt()
+/// Whether an FRF is noise for more than half of its power, by its scatter from line to line.
+fn is_noise(frf: &[Complex64]) -> bool {
+    let all = rms(frf);
+    all > 0.0 && 2.0 * noise_rms(frf).powi(2) > all * all
+}
+
+/// RMS of the fit errors of the FRFs that are above noise, of all if none is.
+pub(super) fn total_error(errors: &[Vec<f64>], measured: &[Vec<Vec<Complex64>>]) -> f64 {
+    let mean_square = |of: &dyn Fn(&[Complex64]) -> bool| {
+        let frfs = errors.iter().flatten().zip(measured.iter().flatten()).filter(|(_, frf)| of(frf));
+        let (sum, count) = frfs.fold((0.0, 0), |(sum, count), (e, _)| (sum + e * e, count + 1));
+        (count > 0).then(|| sum / f64::from(count))
+    };
+    let above = mean_square(&|frf| !is_noise(frf)).or_else(|| mean_square(&|_| true));
+    above.unwrap_or(0.0).sqrt()
 }

@@ -32,6 +32,7 @@ fn document(found: &ModalIdentification) -> Document<'_> {
             named("fit_errors", "fit_error"),
             Array::real(&[responses, references], "1", found.errors.concat()),
         )
+        .texts("noise_only_frfs", noise_only_names(found))
         .array("auto_mac", Array::real(&[modes, modes], "1", found.auto_mac().concat()))
         .texts("dropped", found.dropped.iter().map(DroppedPole::to_string))
         .array(in_json("bands_hz"), Array::real(&[found.bands.len(), 2], "Hz", found.bands.concat()))
@@ -39,6 +40,12 @@ fn document(found: &ModalIdentification) -> Document<'_> {
         .array(in_hdf5("measured"), frfs(&found.measured))
         .array(in_hdf5("synthesised"), frfs(&found.synthesised))
         .group(in_hdf5("stabilisation"), diagram(&found.diagram))
+}
+
+/// FRFs of noise alone, such as "3:+x/1:+x".
+pub fn noise_only_names(found: &ModalIdentification) -> Vec<String> {
+    let name = |(r, e): (usize, usize)| format!("{}/{}", found.responses[r], found.references[e]);
+    found.noise_only().into_iter().map(name).collect()
 }
 
 fn mode_rows<'r>(found: &'r ModalIdentification) -> Rows<'r, 'r, Mode> {

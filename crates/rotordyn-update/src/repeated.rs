@@ -93,6 +93,7 @@ mod tests {
             damping_error: 0.0,
             shape: shape.map(Complex64::from).to_vec(),
             shape_error: 0.0,
+            quality_warnings: Vec::new(),
         }
     }
 

@@ -6,6 +6,7 @@ use super::UpdateError;
 use rotordyn_core::assembly::Assembly;
 use rotordyn_core::element::Anchor;
 use rotordyn_core::model::Model;
+use rotordyn_identify::QualityWarning;
 use rotordyn_linalg::{Complex64, SparseRow};
 use rotordyn_signal::Quantity;
 use rotordyn_signal::record::{Analysis, Dof, Geometry, MeasuredData, Shape};
@@ -61,6 +62,15 @@ pub struct TargetMode {
     pub shape: Vec<Complex64>,
     /// Standard deviation of √(1 − MAC) by the error of the shape; 0 if unknown.
     pub shape_error: f64,
+    /// What the identification doubts of the mode.
+    pub quality_warnings: Vec<QualityWarning>,
+}
+
+impl TargetMode {
+    /// What the identification doubts of the mode, as text; empty without doubt.
+    pub fn doubts(&self) -> String {
+        self.quality_warnings.iter().map(|doubt| doubt.label()).collect::<Vec<_>>().join("; ")
+    }
 }
 
 /// Measured FRFs at points of the model.
@@ -273,6 +283,7 @@ pub fn modes_of(
             damping_error: 0.0,
             shape: shape.collect(),
             shape_error: 0.0,
+            quality_warnings: Vec::new(),
         })
     };
     let mut found: Vec<TargetMode> = same_group.iter().filter_map(mode).collect();

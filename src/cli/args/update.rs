@@ -58,6 +58,10 @@ pub struct MeasuredArgs {
     /// Frequency band, such as "10 .. 300 Hz" [default: all measured]
     #[arg(long, value_name = "RANGE")]
     pub band: Option<String>,
+    /// Time constant of the exponential window with which FRFs were measured, such as "0.5 s": its damping is subtracted from
+    /// every mode
+    #[arg(long, value_name = "TIME")]
+    pub exponential_window: Option<String>,
     /// Shaft speed of the measurement, such as "1200 rpm" [default: as stated in the file, else 0]
     #[arg(long, value_name = "SPEED")]
     pub speed: Option<String>,

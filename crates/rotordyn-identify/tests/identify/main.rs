@@ -1,5 +1,6 @@
 //! Poles and mode shapes of exact and noisy FRFs, refusals.
 
+mod band_end;
 mod drift;
 mod exact;
 mod exponential_window;
@@ -8,6 +9,7 @@ mod heavy_damping;
 mod inconsistent_output;
 mod known_modes;
 mod mains;
+mod merged_modes;
 mod model_error;
 mod noise;
 mod noise_only;

@@ -26,6 +26,8 @@ pub struct ReadSettings<'a> {
     pub band: Option<[f64; 2]>,
     /// Speed Ω \[rad/s\] of the measurement, if the file does not state it.
     pub speed: Option<f64>,
+    /// Decay rate \[1/s\] that an exponential window added to all modes of the FRFs; 0 without a window.
+    pub added_decay: f64,
     /// Limits for reading the file; the usual ones if `None`.
     pub limits: Option<&'a Limits>,
     /// Ends the identification of FRFs from another thread.
@@ -153,14 +155,20 @@ fn of_shapes(measured: &MeasuredData, reading: &ReadSettings, model: &Model) -> 
     let speed = rpm.map(|rpm| rpm * TAU / 60.0).or(reading.speed).unwrap_or(0.0);
     let source = format!("{} modes of the file", modes.len());
     let target = Target { speed, sensors, modes, frfs: None };
-    Ok(TestData { target, warnings: Vec::new(), left_out: None, source, peak_force: None })
+    let mut warnings = Vec::new();
+    if reading.added_decay > 0.0 {
+        warnings.push("the damping of an exponential window is not taken off the modes of a file".into());
+    }
+    Ok(TestData { target, warnings, left_out: None, source, peak_force: None })
 }
 
 fn of_frfs(measured: &MeasuredData, reading: &ReadSettings, model: &Model) -> Result<TestData, Error> {
     let mut matrix = measured.frf_matrix()?;
     let zero_response_warnings = drop_zero_responses(&mut matrix);
     let stop = reading.stop.cloned().unwrap_or_default();
-    let settings = identify::Settings { band: reading.band, stop, ..identify::Settings::default() };
+    let added_decay = reading.added_decay;
+    let settings =
+        identify::Settings { band: reading.band, added_decay, stop, ..identify::Settings::default() };
     let repaired = identify::without_single_lines(&matrix);
     let replaced = repaired.map(|(repaired, at)| {
         matrix = repaired;
@@ -175,6 +183,20 @@ fn of_frfs(measured: &MeasuredData, reading: &ReadSettings, model: &Model) -> Re
     warnings.extend(identify::low_coherence(&matrix, &found));
     if let Some(text) = identify::frfs_without_unit(&matrix) {
         warnings.push(format!("{text}; give the unit in the file or in a mapping"));
+    }
+    if added_decay > 0.0 {
+        warnings.push(
+            "the damping of the exponential window is taken off the modes; the FRFs themselves have it, and are not compared"
+                .into(),
+        );
+        let too_much = found.modes.iter().filter(|m| m.damping_ratio() <= 0.0).map(|m| {
+            format!(
+                "without the damping of the exponential window the mode at {:.3} Hz is not damped: it was measured with another \
+                 window",
+                m.frequency_hz()
+            )
+        });
+        warnings.extend(too_much);
     }
     if speeds.iter().any(|s| (s - speeds[0]).abs() > 1.0) {
         warnings.push("the FRFs were measured at different speeds; the first is taken for all".into());
@@ -192,7 +214,7 @@ fn of_frfs(measured: &MeasuredData, reading: &ReadSettings, model: &Model) -> Re
         identify::quantity_of(unit).unwrap_or(found.quantity)
     };
     let of_placed = |row: &Vec<Vec<Complex64>>| placed.iter().map(|&e| row[e].clone()).collect();
-    let frfs = (!placed.is_empty()).then(|| TargetFrfs {
+    let frfs = (!placed.is_empty() && added_decay == 0.0).then(|| TargetFrfs {
         frequencies: matrix.frequencies.clone(),
         quantities: (0..responses.len()).map(quantity).collect(),
         responses: unit_directions(&responses),
@@ -267,6 +289,7 @@ fn modes_of_identified(found: &ModalIdentification) -> (Vec<Dof>, Vec<TargetMode
             damping_error: mode.damping_error,
             shape: shape.to_vec(),
             shape_error: mode.shape_error,
+            quality_warnings: mode.quality_warnings.clone(),
         });
     }
     (dofs, modes)
