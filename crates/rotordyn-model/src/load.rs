@@ -309,9 +309,9 @@ fn is_text(path: &str) -> bool {
 fn decimal_comma(text: &str, at: usize) -> Option<String> {
     let line_start = text.get(..at)?.rfind('\n').map_or(0, |end| end + 1);
     let line = text[line_start..].lines().next()?;
-    let commas = line.match_indices(',').map(|(place, _)| place);
+    let mut commas = line.match_indices(',').map(|(place, _)| place);
     let is_digit = |c: char| c.is_ascii_digit();
-    commas.filter(|place| line_start + place <= at).next_back().and_then(|place| {
+    commas.rfind(|place| line_start + place <= at).and_then(|place| {
         let (before, after) = (&line[..place], &line[place + 1..]);
         let whole = &before[before.trim_end_matches(is_digit).len()..];
         let decimals = &after[..after.len() - after.trim_start_matches(is_digit).len()];
