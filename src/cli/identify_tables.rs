@@ -61,7 +61,7 @@ pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix
         found.noise_only().iter().for_each(|(r, e)| errors[r * columns + e] = 0.0);
     }
     let worst = errors.iter().copied().fold(0.0, f64::max);
-    let counted = match noise.len() {
+    let counts = match noise.len() {
         0 => "all FRFs".to_string(),
         count if count == errors.len() => {
             format!("all {count} FRFs, which are noise for more than half of their power")
@@ -74,7 +74,7 @@ pub fn tables(terminal: &Terminal, found: &ModalIdentification, frfs: &FrfMatrix
         ),
     };
     terminal.print(&format!(
-        "  +- is one standard error, with the error of the model; damped Hz is Im(pole)/2pi, natural Hz |pole|/2pi.\n  MPC (modal phase collinearity) is 1 for a real mode.\n  Fit error {:.2} % over {counted}, {:.2} % for the \
+        "  +- is one standard error, with the error of the model; damped Hz is Im(pole)/2pi, natural Hz |pole|/2pi.\n  MPC (modal phase collinearity) is 1 for a real mode.\n  Fit error {:.2} % over {counts}, {:.2} % for the \
          worst FRF.",
         100.0 * found.total_error,
         100.0 * worst
