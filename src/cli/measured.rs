@@ -123,7 +123,7 @@ pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &Mod
     let has_errors = target.modes.iter().any(|m| m.frequency_error > 0.0);
     let dash = || "-".to_string();
     let error = |value: f64| if value > 0.0 { number(value, 2) } else { dash() };
-    let has_doubts = target.modes.iter().any(|m| !m.quality_warnings.is_empty());
+    let has_warnings = target.modes.iter().any(|m| !m.quality_warnings.is_empty());
     let mut rows: Vec<(f64, [String; 10])> = Vec::new();
     for (k, measured) in target.modes.iter().enumerate() {
         let pair = state.paired_mode(k);
@@ -139,7 +139,7 @@ pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &Mod
             computed(&|mode| per_cent(mode.zeta())),
             pair.map_or_else(dash, |(_, mac)| format!("{mac:.3}")),
             pair.map_or("(not in the model)".into(), |(mode, _)| mode.label.clone()),
-            measured.doubts(),
+            measured.quality_text(),
         ];
         rows.push((hz, row));
     }
@@ -171,7 +171,7 @@ pub fn mode_table(terminal: &Terminal, title: &str, target: &Target, state: &Mod
     ];
     let shown = |k: &usize| match HEADER[*k] {
         "+-" => has_errors,
-        "doubt" => has_doubts,
+        "doubt" => has_warnings,
         _ => true,
     };
     let columns: Vec<usize> = (0..HEADER.len()).filter(shown).collect();

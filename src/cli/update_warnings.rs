@@ -42,9 +42,9 @@ pub fn warn_of_uncertain_shapes<'a>(
 
 fn uncertain_shapes(modes: &[&TargetMode], least: f64) -> Warning {
     let all = |of: &dyn Fn(&TargetMode) -> String| modes.iter().map(|mode| of(mode)).collect::<Vec<_>>();
-    let hz = all(&|mode| match mode.doubts() {
-        doubts if doubts.is_empty() => format!("{:.3} Hz", mode.frequency_hz),
-        doubts => format!("{:.3} Hz ({doubts})", mode.frequency_hz),
+    let hz = all(&|mode| match mode.quality_text() {
+        text if text.is_empty() => format!("{:.3} Hz", mode.frequency_hz),
+        text => format!("{:.3} Hz ({text})", mode.frequency_hz),
     });
     let errors = all(&|mode| number(mode.shape_error, 2));
     let (shapes, have) = if modes.len() == 1 { ("shape", "has") } else { ("shapes", "have") };

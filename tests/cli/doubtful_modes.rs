@@ -1,4 +1,4 @@
-//! `validate` and `update` with modes that `identify` doubts, and with FRFs through an exponential window.
+//! `validate` and `update` with modes of which `identify` warns, and with FRFs through an exponential window.
 
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -53,8 +53,11 @@ fn exact_model_explains_modes_that_are_not_separated() {
     let files = fan(folder.path(), "60 dB", "2");
     let out = folder.path().join("validated");
     let found = json_of(&mut on("validate", &files, &out, &[]));
-    let doubts = doubted(&found["measured"][0]["modes"]);
-    assert!(doubts.iter().any(|(hz, text)| *hz > 430.0 && text.contains("not refined")), "{doubts:?}");
+    let found_doubtful = doubted(&found["measured"][0]["modes"]);
+    assert!(
+        found_doubtful.iter().any(|(hz, text)| *hz > 430.0 && text.contains("not refined")),
+        "{found_doubtful:?}"
+    );
     let text = output_of(&mut on("validate", &files, &out, &[]));
     assert!(text.contains("doubt\n") && text.contains("stable pole, not refined"), "{text}");
 }

@@ -7,7 +7,8 @@
 
 use std::f64::consts::TAU;
 
-use super::data::{Data, highest_order, noise_rms};
+use super::data::{Data, highest_order};
+use super::frf_power::noise_rms;
 use super::one_band::identify_band;
 use super::result::{ModalIdentification, fit_error, total_error};
 use super::{IdentifyError, Settings};

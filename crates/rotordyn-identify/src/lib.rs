@@ -15,7 +15,7 @@
 //! | `window`, `principal_outputs` | FRFs in a part of the band, on few directions, for cheap fits |
 //! | `uncertainty`, `misfit`, `nonlinearity` | standard errors of poles: noise (jackknife) and error of the modal model |
 //! | `truncation` | error by the modes outside the band |
-//! | `doubts` | what the doubts of a mode add to its standard errors |
+//! | `alternative_mode` | what a mode may be instead, as part of its standard errors |
 //! | `mode_coherence` | coherence at the resonances |
 //! | `single_lines` | lines that stand alone, such as those of the mains |
 //! | `shape_errors` | standard errors of shapes |
@@ -29,11 +29,12 @@
 //! l the modal participation (left eigenvector). No reciprocity is assumed: on a rotating machine l is not
 //! proportional to ψ.
 
+mod alternative_mode;
 mod bands;
 mod data;
 mod dense;
-mod doubts;
 mod error;
+mod frf_power;
 mod lsfd;
 pub mod mac;
 mod misfit;

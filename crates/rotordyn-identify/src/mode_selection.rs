@@ -6,8 +6,8 @@
 
 use std::f64::consts::TAU;
 
+use super::alternative_mode::{AlternativeMode, NOT_REFINED};
 use super::data::Data;
-use super::doubts::{Doubt, NOT_REFINED};
 use super::lsfd::Fit;
 use super::mac::mac;
 use super::misfit::{outputs_differ, with_model_error};
@@ -31,7 +31,7 @@ pub(super) struct SelectedModes {
     /// E|δψ|² `[mode][output]`.
     pub shape_variances: Vec<Vec<f64>>,
     /// 1 − MAC of each shape by what the mode may be instead, and by the modes outside the band.
-    pub shape_doubts: Vec<f64>,
+    pub alternative_shapes: Vec<f64>,
     pub significance: Vec<f64>,
     pub quality_warnings: Vec<Vec<QualityWarning>>,
 }
@@ -77,7 +77,7 @@ pub(super) fn select_modes(
     let RefinedModes { at, mut covariance, significance, duplicates } = settled;
     let differ = outputs_differ(&problem, &at);
     let mut quality_warnings = vec![Vec::new(); at.poles.len()];
-    let mut doubts = vec![Doubt::default(); at.poles.len()];
+    let mut alternatives = vec![AlternativeMode::default(); at.poles.len()];
     let nearest = |value: Complex64| {
         let distance = |m: usize| (at.poles[m].value - value).norm();
         (0..at.poles.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
@@ -92,24 +92,24 @@ pub(super) fn select_modes(
         if !quality_warnings[m].contains(&QualityWarning::MaybeTwo) {
             quality_warnings[m].push(QualityWarning::MaybeTwo);
         }
-        doubts[m] = doubts[m].or(Doubt::of_two(&problem, &at, m, pair));
+        alternatives[m] = alternatives[m].or(AlternativeMode::of_two(&problem, &at, m, pair));
     }
     for (m, neighbour) in pairs::indistinct(&problem, &at) {
         quality_warnings[m].push(QualityWarning::MaybeOne);
-        doubts[m] = doubts[m].or(Doubt::of_one(&problem, &at, m, neighbour));
+        alternatives[m] = alternatives[m].or(AlternativeMode::of_one(&problem, &at, m, neighbour));
     }
     for (m, pull) in pulls(&problem, &at) {
         quality_warnings[m].push(QualityWarning::Held);
-        doubts[m].shape = doubts[m].shape.max(NOT_REFINED);
+        alternatives[m].shape = alternatives[m].shape.max(NOT_REFINED);
         covariance[m][0] += pull.re * pull.re;
         covariance[m][1] += pull.im * pull.im;
     }
-    for (doubt, truncation) in doubts.iter_mut().zip(truncation_errors(&problem, &at)) {
-        *doubt = doubt.or(truncation);
+    for (alternative, truncation) in alternatives.iter_mut().zip(truncation_errors(&problem, &at)) {
+        *alternative = alternative.or(truncation);
     }
-    for (covariance, doubt) in covariance.iter_mut().zip(&doubts) {
-        covariance[0] += doubt.pole[0];
-        covariance[1] += doubt.pole[1];
+    for (covariance, alternative) in covariance.iter_mut().zip(&alternatives) {
+        covariance[0] += alternative.pole[0];
+        covariance[1] += alternative.pole[1];
     }
     let fit = problem.fit(&at);
     let shape_variances = shape_variances(&problem, &at, &covariance);
@@ -118,7 +118,7 @@ pub(super) fn select_modes(
         fit,
         covariance,
         shape_variances,
-        shape_doubts: doubts.into_iter().map(|doubt| doubt.shape).collect(),
+        alternative_shapes: alternatives.into_iter().map(|alternative| alternative.shape).collect(),
         significance,
         quality_warnings,
     })

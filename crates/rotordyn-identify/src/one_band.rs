@@ -134,7 +134,7 @@ fn assemble_result(
             let mut shape_error = shape_error(&large, |o| {
                 found.shape_variances[m][o] * (data.output_scale[o] * before[k].norm()).powi(2)
             });
-            shape_error = shape_error.hypot(found.shape_doubts[m].sqrt()).min(1.0);
+            shape_error = shape_error.hypot(found.alternative_shapes[m].sqrt()).min(1.0);
             let collinearity = mac::phase_collinearity(&large);
             let points = large.len();
             let (shape, participation) = if data.swapped { (small, large) } else { (large, small) };

@@ -1,6 +1,6 @@
 //! Result of a modal identification.
 
-use super::data::{noise_rms, rms};
+use super::frf_power::{noise_rms, rms};
 use rotordyn_linalg::Complex64;
 use rotordyn_signal::Quantity;
 use rotordyn_signal::record::Dof;

@@ -2,7 +2,8 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::data::{Data, noise_rms, rms};
+use super::data::Data;
+use super::frf_power::{noise_rms, rms};
 use super::plscf::{Pole, normalise_largest};
 use super::refine::{FitPoint, Problem};
 use rotordyn_linalg::Complex64;

@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use super::doubts::{Doubt, measured_shape};
+use super::alternative_mode::{AlternativeMode, measured_shape};
 use super::mac::mac;
 use super::refine::{FitPoint, Problem};
 use rotordyn_linalg::Complex64;
@@ -19,8 +19,8 @@ const FAR: f64 = 0.15;
 const MIN_SIGNIFICANCE: f64 = 4.0;
 
 /// Error of every mode by the modes outside the band.
-pub(super) fn truncation_errors(problem: &Problem, at: &FitPoint) -> Vec<Doubt> {
-    let none = vec![Doubt::default(); at.poles.len()];
+pub(super) fn truncation_errors(problem: &Problem, at: &FitPoint) -> Vec<AlternativeMode> {
+    let none = vec![AlternativeMode::default(); at.poles.len()];
     let outside = poles_outside(problem, at);
     if outside.is_empty() || at.poles.iter().all(|pole| pole.held) {
         return none;
@@ -37,8 +37,8 @@ pub(super) fn truncation_errors(problem: &Problem, at: &FitPoint) -> Vec<Doubt> 
         let far = (moved - value).norm() > value.re.abs();
         let moved =
             if far { value + (moved - value) * (value.re.abs() / (moved - value).norm()) } else { moved };
-        let likeness = mac(&measured_shape(problem, at, m), &measured_shape(problem, &with, m));
-        Doubt::new(value, moved, 1.0 - likeness)
+        let correlation = mac(&measured_shape(problem, at, m), &measured_shape(problem, &with, m));
+        AlternativeMode::new(value, moved, 1.0 - correlation)
     };
     (0..at.poles.len()).map(error).collect()
 }

@@ -30,7 +30,7 @@ const MIN_SIGNIFICANCE: f64 = 10.0;
 /// hits, of which a second pole takes up a part.
 pub(super) const MIN_EXPLAINED: f64 = 20.0;
 
-/// Energy of the noise in the residuals, by third differences from line to line, as in `data::noise_rms`; their mean, not the
+/// Energy of the noise in the residuals, by third differences from line to line, as in `frf_power::noise_rms`; their mean, not the
 /// median, contains the noise of the force, which is strongest at the resonance.
 pub(super) fn noise(at: &FitPoint, lines: usize) -> f64 {
     let third = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).powi(2) / 20.0;

@@ -170,7 +170,7 @@ fn pair_rows<'a, 'r>(pairs: &'r [Pair<'r>]) -> Rows<'a, 'r, Pair<'r>> {
         .optional("mac", "1", |(_, pair)| pair.map(|(_, mac)| mac))
         .optional_text("label", |(_, pair)| pair.map(|(mode, _)| &mode.label))
         .number("measured_shape_error", "1", |(m, _)| m.shape_error)
-        .text("quality_warnings", |(m, _)| m.doubts())
+        .text("quality_warnings", |(m, _)| m.quality_text())
 }
 
 fn measured_modes<'a>(target: &'a Target, state: &ModelState) -> Document<'a> {
@@ -185,7 +185,7 @@ fn measured_modes<'a>(target: &'a Target, state: &ModelState) -> Document<'a> {
         .numbers("zeta", "1", column(&|k| modes[k].damping_ratio.unwrap_or(f64::NAN)))
         .numbers("zeta_error", "1", column(&|k| modes[k].damping_error))
         .numbers("shape_error", "1", column(&|k| modes[k].shape_error))
-        .texts("quality_warnings", modes.iter().map(TargetMode::doubts))
+        .texts("quality_warnings", modes.iter().map(TargetMode::quality_text))
         .array("shapes", Array::complex(&[modes.len(), target.sensors.len()], "1", shapes))
         // Index of the computed mode, -1 without one.
         .numbers("paired_mode", "1", column(&partner))

@@ -62,13 +62,13 @@ pub struct TargetMode {
     pub shape: Vec<Complex64>,
     /// Standard deviation of √(1 − MAC) by the error of the shape; 0 if unknown.
     pub shape_error: f64,
-    /// What the identification doubts of the mode.
+    /// Quality warnings of the identification.
     pub quality_warnings: Vec<QualityWarning>,
 }
 
 impl TargetMode {
-    /// What the identification doubts of the mode, as text; empty without doubt.
-    pub fn doubts(&self) -> String {
+    /// Quality warnings of the identification, as text; empty without doubt.
+    pub fn quality_text(&self) -> String {
         self.quality_warnings.iter().map(|doubt| doubt.label()).collect::<Vec<_>>().join("; ")
     }
 }

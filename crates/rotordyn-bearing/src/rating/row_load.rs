@@ -3,10 +3,15 @@
 use crate::BallLoad;
 use std::ops::AddAssign;
 
-/// F_r/Σ Q cos α of a radial load on half of the balls, J_r/J_a of the load zone ε = 0.5 = 0.2288/0.2782.
+/// Load integrals of Harris for a radial load on half of the balls, ε = 0.5, (1/2π) ∫ cosⁿψ dψ over ± π/2: of the radial force
+/// (n = 5/2), of the sum of the balls' loads (3/2), and of their cubes (9/2), of which the third root counts for fatigue.
 ///
-/// Source: Harris, Rolling Bearing Analysis, ch. 7 (table 7.1 and 7.4).
-const RADIAL_SHARE: f64 = 0.82;
+/// Source: Harris, Rolling Bearing Analysis, ch. 7.
+const RADIAL: f64 = 0.2288;
+const SUM: f64 = 0.2782;
+const FATIGUE: f64 = 0.5625;
+/// Z Q_max/F_r of ISO 76, with some clearance.
+const LARGEST: f64 = 5.0;
 /// The same below which more than half of the balls carry load.
 const PRELOADED: f64 = 0.75;
 
@@ -19,6 +24,10 @@ pub struct RowLoad {
     axial: f64,
     /// Σ Q_i cos α_i \[N\].
     pressing: f64,
+    /// Number of balls, Σ (Q_i cos α_i)³ \[N³\], max Q_i cos α_i \[N\].
+    balls: f64,
+    cubes: f64,
+    largest: f64,
 }
 
 impl AddAssign<&BallLoad> for RowLoad {
@@ -29,6 +38,9 @@ impl AddAssign<&BallLoad> for RowLoad {
         self.radial[1] += across * ball.position.sin();
         self.axial += ball.load * sin;
         self.pressing += across.abs();
+        self.balls += 1.0;
+        self.cubes += across.abs().powi(3);
+        self.largest = self.largest.max(across.abs());
     }
 }
 
@@ -56,8 +68,18 @@ impl RowLoad {
         self.pressing > 0.0 && radial < PRELOADED * self.pressing
     }
 
-    /// The radial load \[N\] that presses balls as much as interference between rings and balls does.
-    pub fn equivalent_of_interference(&self) -> f64 {
-        RADIAL_SHARE * self.pressing
+    /// The radial load \[N\] on half of the balls with the same sum of the balls' loads, which counts for friction.
+    pub fn equal_in_friction(&self) -> f64 {
+        RADIAL / SUM * self.pressing
+    }
+
+    /// The one \[N\] with the same mean cube of the balls' loads, which counts for fatigue of the turning ring.
+    pub fn equal_in_fatigue(&self) -> f64 {
+        RADIAL / FATIGUE * self.balls * (self.cubes / self.balls.max(1.0)).cbrt()
+    }
+
+    /// The one \[N\] with the same largest load of a ball, which counts for the static safety.
+    pub fn equal_in_largest_load(&self) -> f64 {
+        self.balls * self.largest / LARGEST
     }
 }

@@ -405,9 +405,9 @@ impl BearingPoint {
         films.reduce(f64::min).unwrap_or(0.0)
     }
 
-    /// Whether a loaded contact has a film, as with a lubricant.
+    /// Whether films are known: with a lubricant, whose film is 0 at standstill, or a film of the contact law.
     pub fn has_film(&self) -> bool {
-        self.minimum_film() > 0.0
+        !self.friction.viscous_factor.is_nan() || self.minimum_film() > 0.0
     }
 
     /// Names and units of the single values of a point.

@@ -12,6 +12,10 @@ use rotordyn_bearing::rating::{
 };
 use rotordyn_bearing::{Arrangement, BallBearing, BallInertia, BallLoad, Imperfections, Preload, kinematics};
 
+/// Axial force of the row of a pair with less of it, over that of the other, below which it is no preload: centrifugal force
+/// presses balls of an unloaded row a little.
+const LEAST_PRELOAD: f64 = 0.05;
+
 /// Ratings of one bearing, and the solver for the load distribution of ISO/TS 16281.
 pub(super) struct BearingRating<'a> {
     bearing: &'a BallBearing,
@@ -61,16 +65,17 @@ impl<'a> BearingRating<'a> {
             return RowLoad::of_rows(2, balls).iter().map(RowLoad::forces).collect();
         }
         let [x, y, z, ..] = state.load;
-        vec![[x.hypot(y).max(self.interference_load(state, balls)), z]]
+        let pressed = self.row_with_interference(state, balls).map_or(0.0, |row| row.equal_in_friction());
+        vec![[x.hypot(y).max(pressed), z]]
     }
 
-    /// Radial load that presses the balls of a single row as interference does \[N\]; 0 with clearance.
-    fn interference_load(&self, state: &BearingEquilibrium, balls: &[BallLoad]) -> f64 {
+    /// A single row with interference between rings and balls.
+    fn row_with_interference(&self, state: &BearingEquilibrium, balls: &[BallLoad]) -> Option<RowLoad> {
         let mounted = kinematics::mounted_geometry(self.bearing, state.condition.speed);
         if self.arrangement.is_some() || mounted.radial_clearance >= 0.0 {
-            return 0.0;
+            return None;
         }
-        RowLoad::of_rows(1, balls).iter().map(RowLoad::equivalent_of_interference).sum()
+        RowLoad::of_rows(1, balls).pop()
     }
 
     /// P and P_0 of ISO 281 and ISO 76 under the load of a state, at least those that preload and interference amount to.
@@ -85,10 +90,12 @@ impl<'a> BearingRating<'a> {
         let mut static_load = static_equivalent_load(g, self.arrangement, radial, z);
         if self.arrangement.is_some() {
             let rows = RowLoad::of_rows(2, balls);
-            if !rows.iter().all(RowLoad::is_preloaded) {
+            let all_round = rows.iter().all(RowLoad::is_preloaded);
+            let rows: Vec<[f64; 2]> = rows.iter().map(RowLoad::forces).collect();
+            let [least, most] = [f64::min, f64::max].map(|of| of(rows[0][1], rows[1][1]));
+            if !all_round || least < LEAST_PRELOAD * most {
                 return (equivalent, static_load);
             }
-            let rows: Vec<[f64; 2]> = rows.iter().map(RowLoad::forces).collect();
             let row_rating = self.rating.dynamic / 2f64.powf(0.7);
             let life =
                 |&[radial, z]: &[f64; 2]| basic_life(row_rating, equivalent_load(g, None, radial, z).load);
@@ -96,10 +103,9 @@ impl<'a> BearingRating<'a> {
             let of_row = |&[radial, z]: &[f64; 2]| static_equivalent_load(g, None, radial, z);
             equivalent.load = equivalent.load.max(self.rating.dynamic / both.cbrt());
             static_load = static_load.max(2.0 * rows.iter().map(of_row).fold(0.0, f64::max));
-        } else {
-            let interference = self.interference_load(state, balls);
-            equivalent.load = equivalent.load.max(interference);
-            static_load = static_load.max(interference);
+        } else if let Some(row) = self.row_with_interference(state, balls) {
+            equivalent.load = equivalent.load.max(row.equal_in_fatigue());
+            static_load = static_load.max(row.equal_in_largest_load());
         }
         (equivalent, static_load)
     }

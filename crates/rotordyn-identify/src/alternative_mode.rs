@@ -1,4 +1,4 @@
-//! What the doubts of a mode add to its standard errors.
+//! What a mode may be instead, as part of its standard errors.
 //!
 //! A mode that may be two is then the nearer of the two: its error is the distance to that one, of the pole and of the shape.
 //! A mode that may be one with its neighbour is then the mode of one pole between both. The shape at a pole that is not refined
@@ -17,14 +17,14 @@ const OF_TWO: f64 = 0.5;
 
 /// Squared errors of a mode by what it may be instead.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Doubt {
+pub(super) struct AlternativeMode {
     /// Of the pole's real and imaginary part.
     pub pole: [f64; 2],
     /// 1 − MAC of the shape.
     pub shape: f64,
 }
 
-impl Doubt {
+impl AlternativeMode {
     /// Of a mode that may have another pole, and a shape of this 1 − MAC.
     pub fn new(pole: Complex64, other: Complex64, shape: f64) -> Self {
         let apart = other - pole;
@@ -32,7 +32,7 @@ impl Doubt {
     }
 
     /// The larger of two, of the pole and of the shape.
-    pub fn or(self, other: Doubt) -> Self {
+    pub fn or(self, other: AlternativeMode) -> Self {
         Self {
             pole: [self.pole[0].max(other.pole[0]), self.pole[1].max(other.pole[1])],
             shape: self.shape.max(other.shape),
@@ -47,9 +47,9 @@ impl Doubt {
         poles.extend_from_slice(pair);
         let two = problem.refine(poles, 0);
         let own = measured_shape(problem, at, m);
-        let likeness = [first, first + 1].map(|k| mac(&own, &measured_shape(problem, &two, k)));
-        let nearer = usize::from(likeness[1] > likeness[0]);
-        let whole = Self::new(at.poles[m].value, pair[nearer].value, 1.0 - likeness[nearer]);
+        let correlation = [first, first + 1].map(|k| mac(&own, &measured_shape(problem, &two, k)));
+        let nearer = usize::from(correlation[1] > correlation[0]);
+        let whole = Self::new(at.poles[m].value, pair[nearer].value, 1.0 - correlation[nearer]);
         Self { pole: whole.pole.map(|square| OF_TWO * square), ..whole }
     }
 
@@ -61,8 +61,8 @@ impl Doubt {
         poles.remove(neighbour);
         let one = problem.refine(poles, 0);
         let place = m - usize::from(neighbour < m);
-        let likeness = mac(&measured_shape(problem, at, m), &measured_shape(problem, &one, place));
-        Self::new(at.poles[m].value, value, 1.0 - likeness)
+        let correlation = mac(&measured_shape(problem, at, m), &measured_shape(problem, &one, place));
+        Self::new(at.poles[m].value, value, 1.0 - correlation)
     }
 }
 
