@@ -16,7 +16,7 @@ use rotordyn::study::Machine;
 use super::equilibrium_loads;
 use super::printed;
 use super::rotor_tables;
-use super::terminal::{Terminal, number, rpm};
+use super::terminal::{Terminal, counted, number, rpm};
 use super::unbalance_tables;
 
 /// Largest number of rows printed; the rest is in results.h5.
@@ -424,5 +424,13 @@ pub fn orders(terminal: &Terminal, found: &[OrderResult]) {
     let header = ["channel", "order line", "order", "peak RMS", "unit", "at rpm"];
     terminal.table("Order cuts: peak levels", &header, &rows);
     print_omitted_count(terminal, count);
+    let speeds = found.iter().flat_map(|result| &result.cuts).map(|(_, cut)| cut.rpm.as_slice());
+    if let Some(rpm) = speeds.max_by_key(|rpm| rpm.len()) {
+        let [low, high] = [f64::min, f64::max].map(|of| rpm.iter().copied().reduce(of).unwrap_or(f64::NAN));
+        terminal.print(&format!(
+            "  {} of revolutions, centred from {low:.1} to {high:.1} rpm",
+            counted(rpm.len(), "window", "windows")
+        ));
+    }
     found.iter().for_each(|result| printed::tables(terminal, &result.section().content));
 }

@@ -415,3 +415,29 @@ fn a_speed_above_that_of_its_kind_is_named_without_a_machine() {
     let warned = |speed| has(&found(&alone("6205", ""), "bearing", &flags(speed)).0, "n d_m");
     assert!(warned("60000 rpm") && !warned("30000 rpm"));
 }
+
+/// The race that is stated to control needs the friction: 2 M/D at the lighter inner contact is above what it has, where the outer
+/// one would hold.
+#[test]
+fn sliding_is_that_of_the_controlling_race() {
+    let flags = ["--load", "0, 0, 1000 N", "--speed", "12000 rpm", "--sweep", "cage_angle=0 deg .. 1 deg"];
+    let slides = |control: &str| {
+        let keys = format!("ball_inertia = \"{control}\"");
+        has(&found(&alone("7014C", &keys), "bearing", &flags).0, "the balls slide")
+    };
+    assert!(
+        slides("inner_race_control") && slides("harris_inner_race_control") && !slides("outer_race_control")
+    );
+}
+
+#[test]
+fn a_defect_narrower_than_a_contact_is_named() {
+    let flags = ["--load", "0, -500, 0 N", "--speed", "1000 rpm", "--sweep", "cage_angle=0 deg .. 1 deg"];
+    let warned = |width: &str| {
+        let keys = format!(
+            "defect = [{{ on = \"outer\", centre = \"-90 deg\", kind = \"dent\", width = \"{width}\" }}]"
+        );
+        has(&found(&alone("6306", &keys), "bearing", &flags).0, "narrower")
+    };
+    assert!(warned("1 um") && !warned("0.1 mm"));
+}

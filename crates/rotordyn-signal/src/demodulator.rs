@@ -29,15 +29,21 @@ pub(crate) struct Demodulator {
 impl Demodulator {
     pub fn new(record: &[f64], sample_rate: f64) -> Self {
         let samples = record.len();
-        let mut planner = FftPlanner::new();
         let mut bins: Vec<Complex<f64>> = record.iter().map(|&x| Complex::from(x)).collect();
-        planner.plan_fft_forward(samples).process(&mut bins);
+        // The plan of the whole record, as large as its transform, is not kept.
+        FftPlanner::new().plan_fft_forward(samples).process(&mut bins);
         bins.truncate(samples / 2 + 1);
+        bins.shrink_to_fit();
         let scale = 1.0 / samples as f64;
         for (k, bin) in bins.iter_mut().enumerate() {
             *bin *= if has_mirror(k, samples) { 2.0 * scale } else { scale };
         }
-        Demodulator { bins, samples, sample_rate, plans: Mutex::new((planner, RealFftPlanner::new())) }
+        Demodulator {
+            bins,
+            samples,
+            sample_rate,
+            plans: Mutex::new((FftPlanner::new(), RealFftPlanner::new())),
+        }
     }
 
     fn inverse(&self, length: usize) -> Arc<dyn Fft<f64>> {

@@ -185,10 +185,11 @@ impl BearingLoad<'_> {
         (load < minimum).then_some(ExceededLimit::MinimumLoad { load, minimum })
     }
 
-    /// μ = Σ 2 M/D / Σ Q with M/D = F_c sin α/5, Q and α of the race that resists the moment, over the balls that carry at the
-    /// inner one: a lightly loaded ball at the end of the loaded zone may slide for a moment.
+    /// μ = Σ 2 M/D / Σ Q over the balls that carry at the inner race: a lightly loaded ball at the end of the loaded zone may
+    /// slide for a moment.
     ///
-    /// The outer race, or the inner one where it is stated to control: with all of the moment, or after Harris half of it.
+    /// M/D = F_c sin α_o/5 on a ball that rolls on the outer race, which resists it; F_c sin α_i/5 (Ω − ω_c)/ω_c where the inner
+    /// race is stated to control, which resists all of it, or after Harris each race half.
     pub(super) fn gyroscopic_coefficient(&self) -> Option<f64> {
         let g = &self.bearing.geometry;
         if !self.bearing.inertia.has_moment() {
@@ -197,17 +198,20 @@ impl BearingLoad<'_> {
         let mass = self.bearing.ball_material.density * PI / 6.0 * g.ball_diameter.powi(3);
         let centrifugal = 0.5 * mass * g.pitch_diameter * self.cage_speed.powi(2);
         let carrying = || self.balls.iter().filter(|ball| ball.load > 0.0);
-        let needed = |part: f64, angle: fn(&BallLoad) -> f64, load: fn(&BallLoad) -> f64| {
-            let friction: f64 =
-                carrying().map(|ball| part * 0.4 * centrifugal * angle(ball).sin().abs()).sum();
-            friction / carrying().map(load).sum::<f64>()
+        let friction = |angle: fn(&BallLoad) -> f64| -> f64 {
+            carrying().map(|ball| 0.4 * centrifugal * angle(ball).sin().abs()).sum()
         };
-        let outer = |part| needed(part, |ball| ball.outer_contact_angle, |ball| ball.outer_load);
-        let inner = |part| needed(part, |ball| ball.contact_angle, |ball| ball.load);
+        let [inner, outer] = [
+            carrying().map(|ball| ball.load).sum::<f64>(),
+            carrying().map(|ball| ball.outer_load).sum::<f64>(),
+        ];
+        let on_outer = friction(|ball| ball.outer_contact_angle);
+        let on_inner = friction(|ball| ball.contact_angle) * (self.speed / self.cage_speed - 1.0).abs();
         Some(match self.bearing.inertia.in_effect() {
-            BallInertia::InnerRaceControl => inner(1.0),
-            BallInertia::HarrisInnerRaceControl => inner(0.5).max(outer(0.5)),
-            _ => outer(1.0),
+            _ if self.cage_speed == 0.0 => 0.0,
+            BallInertia::InnerRaceControl => on_inner / inner,
+            BallInertia::HarrisInnerRaceControl => 0.5 * on_inner / inner.min(outer),
+            _ => on_outer / outer,
         })
     }
 
