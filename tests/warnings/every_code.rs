@@ -176,7 +176,7 @@ const SUPPORTS: &[Case] = &[
     (Code::PreloadWithoutEffect, || {
         let of =
             |preload: &str| alone("7014C", &format!("thrust = \"+z\"\nball_inertia = \"none\"\n{preload}"));
-        let spring = "preload = { force = \"200 N\", stiffness = \"1e6 N/m\" }";
+        let spring = "preload = { force = \"200 N\", spring = \"1e6 N/m\" }";
         let flags =
             ["--load", "0, -500, 600 N", "--speed", "100 rpm", "--sweep", "cage_angle=0 deg .. 1 deg"];
         command("bearing", &of(spring), &of("preload = { force = \"200 N\" }"), &flags)

@@ -12,9 +12,9 @@ use rotordyn_bearing::rating::{
 };
 use rotordyn_bearing::{Arrangement, BallBearing, BallInertia, BallLoad, Imperfections, Preload, kinematics};
 
-/// Axial force of the row of a pair with less of it, over that of the other, below which it is no preload: centrifugal force
-/// presses balls of an unloaded row a little.
-const LEAST_PRELOAD: f64 = 0.05;
+/// Axial force of the row of a pair with less of it, over that of the other, below which the external thrust outweighs what is
+/// left of a preload, and what centrifugal force gives the balls of an unloaded row.
+const LEAST_PRELOAD: f64 = 0.2;
 
 /// Ratings of one bearing, and the solver for the load distribution of ISO/TS 16281.
 pub(super) struct BearingRating<'a> {
@@ -81,7 +81,7 @@ impl<'a> BearingRating<'a> {
     /// P and P_0 of ISO 281 and ISO 76 under the load of a state, at least those that preload and interference amount to.
     ///
     /// The equivalent loads of the standards hold external loads only. Rows of a pair: P_k of each under its own forces and
-    /// C_k = C/2^0.7 give the load C/L^⅓ of the life L of both, and P_0 = 2 max P_0k.
+    /// C_k = C/2^0.7 give the load C/L^⅓ of the life L of both. P_0 is that of the most loaded ball, as the pressure.
     fn equivalent_loads(&self, state: &BearingEquilibrium, balls: &[BallLoad]) -> (EquivalentLoad, f64) {
         let g = &self.bearing.geometry;
         let [x, y, z, ..] = state.load;
@@ -90,19 +90,19 @@ impl<'a> BearingRating<'a> {
         let mut static_load = static_equivalent_load(g, self.arrangement, radial, z);
         if self.arrangement.is_some() {
             let rows = RowLoad::of_rows(2, balls);
-            let all_round = rows.iter().all(RowLoad::is_preloaded);
+            let full_circumference = rows.iter().all(RowLoad::is_preloaded);
+            let largest = rows.iter().map(RowLoad::equal_in_largest_load).fold(0.0, f64::max);
             let rows: Vec<[f64; 2]> = rows.iter().map(RowLoad::forces).collect();
             let [least, most] = [f64::min, f64::max].map(|of| of(rows[0][1], rows[1][1]));
-            if !all_round || least < LEAST_PRELOAD * most {
+            if !full_circumference || least < LEAST_PRELOAD * most {
                 return (equivalent, static_load);
             }
             let row_rating = self.rating.dynamic / 2f64.powf(0.7);
             let life =
                 |&[radial, z]: &[f64; 2]| basic_life(row_rating, equivalent_load(g, None, radial, z).load);
             let both = combined_life(&rows.iter().map(life).collect::<Vec<_>>());
-            let of_row = |&[radial, z]: &[f64; 2]| static_equivalent_load(g, None, radial, z);
             equivalent.load = equivalent.load.max(self.rating.dynamic / both.cbrt());
-            static_load = static_load.max(2.0 * rows.iter().map(of_row).fold(0.0, f64::max));
+            static_load = static_load.max(2.0 * largest);
         } else if let Some(row) = self.row_with_interference(state, balls) {
             equivalent.load = equivalent.load.max(row.equal_in_fatigue());
             static_load = static_load.max(row.equal_in_largest_load());
