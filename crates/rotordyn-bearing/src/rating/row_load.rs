@@ -12,7 +12,7 @@ const SUM: f64 = 0.2782;
 const FATIGUE: f64 = 0.5625;
 /// Z Q_max/F_r of ISO 76, with some clearance.
 const LARGEST: f64 = 5.0;
-/// The same below which more than half of the balls carry load.
+/// F_r/Σ Q cos α below which more than half of the balls carry load; with half of them it is RADIAL/SUM = 0.82.
 const PRELOADED: f64 = 0.75;
 
 /// Resultant of the balls' loads on the inner ring of one row.
@@ -61,8 +61,8 @@ impl RowLoad {
         [self.radial[0].hypot(self.radial[1]), self.axial.abs()]
     }
 
-    /// Whether more balls carry load than half of them, as a radial load alone lets carry: both rows of a pair do so with a
-    /// preload only.
+    /// Whether more than half of the balls carry load, which a radial load without clearance presses: in both rows of a pair
+    /// only a preload does.
     pub fn is_preloaded(&self) -> bool {
         let [radial, _] = self.forces();
         self.pressing > 0.0 && radial < PRELOADED * self.pressing

@@ -119,8 +119,8 @@ fn classify(energy: &Energy, shaft: &[Complex64], whirl: &[f64]) -> ModeKind {
 
 /// Makes a whirling mode one of the plane with most of its energy.
 ///
-/// A shaft at rest on a symmetric stiffness has no whirl direction: orbits that damping in proportion to nothing makes
-/// ellipses say none.
+/// A shaft at rest on a symmetric stiffness has no whirl direction; orbits are ellipses only by damping that is not
+/// proportional.
 pub(super) fn name_by_plane(mode: &mut Mode) {
     if matches!(mode.kind, ModeKind::Forward | ModeKind::Backward | ModeKind::Mixed) {
         let along_x = mode.energy.bending_x >= mode.energy.bending_y;

@@ -167,7 +167,7 @@ impl<'a> SingleBearingStudy<'a> {
             return None;
         }
         let text = format!(
-            "bearing {}: its inner ring is free axially under the load of {} N along z, so that its rigid preload has no effect",
+            "bearing {}: its inner ring is free axially under the load of {:.1} N along z, so that its rigid preload has no effect",
             self.name, operating.load[2]
         );
         Some(Warning::new(Code::PreloadWithoutEffect, format!("bearing.{}", self.name), text))
