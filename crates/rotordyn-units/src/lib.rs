@@ -218,19 +218,20 @@ pub fn parse(text: &str, dimension: Dimension) -> Result<f64, UnitError> {
 pub fn parse_list(text: &str, dimension: Dimension) -> Result<Vec<f64>, UnitError> {
     let mut values = Vec::new();
     let mut rest = text.trim();
+    let mut after_a_comma = false;
     while let Some((value, length)) = leading_number(rest) {
         if !value.is_finite() {
             return Err(UnitError::NotFinite(rest[..length].into()));
         }
-        // the 1 of "5 1/s" belongs to the unit
-        if !values.is_empty() && rest[length..].trim_start().starts_with('/') {
+        // the 1 of "5 1/s" belongs to the unit, those of "5, 1/s" and "1 /s" are values
+        let of_unit = &rest[..length] == "1" && rest[length..].trim_start().starts_with('/');
+        if of_unit && !values.is_empty() && !after_a_comma {
             break;
         }
         values.push(value);
         rest = rest[length..].trim_start();
-        if let Some(after_comma) = rest.strip_prefix(',') {
-            rest = after_comma.trim_start();
-        }
+        after_a_comma = rest.starts_with(',');
+        rest = rest.strip_prefix(',').unwrap_or(rest).trim_start();
     }
     let unit = match rest.trim_end() {
         turns if is_rate_of_turns(dimension) && is_per_minute(turns) => "rpm",

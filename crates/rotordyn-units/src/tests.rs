@@ -109,6 +109,9 @@ fn lists_share_a_unit() {
     assert_eq!(parse_list("0, 600 1200 rpm", FREQUENCY), Ok(vec![0.0, 10.0, 20.0]));
     assert_eq!(parse_list("-0.2 -.15 0.3 m", LENGTH), Ok(vec![-0.2, -0.15, 0.3]));
     assert_eq!(parse_list("0.5", NUMBER), Ok(vec![0.5]));
+    assert_eq!(parse_list("2 5 1/s", RATE), Ok(vec![2.0, 5.0]));
+    assert_eq!(parse_list("0, 1/s", RATE), Ok(vec![0.0, 1.0]));
+    assert_eq!(parse_list("0, 60 /min", RATE), Ok(vec![0.0, 1.0]));
     assert_eq!(parse("50 %", NUMBER), Ok(0.5));
 }
 
