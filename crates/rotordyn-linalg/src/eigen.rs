@@ -1,6 +1,6 @@
 //! Dense eigenvalue problems.
 
-use super::{BandLayout, Complex64, SparseMatrix};
+use super::{BandLayout, Complex64, SparseMatrix, hessenberg};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{self, ComputeEigenvectors, EvdParams, SelfAdjointEvdParams};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
@@ -22,6 +22,9 @@ pub enum EigenError {
 
 /// Eigenvalues and right eigenvectors (columns) of a general real matrix, in no given order.
 ///
+/// By faer; where its iteration does not converge, as in clusters of eigenvalues far from normal that damping β K makes at
+/// −1/β, by [`HessenbergForm`]; so are vectors that do not satisfy their equation, as faer's of nearly equal pairs.
+///
 /// # Errors
 /// No convergence, or entries that are not finite.
 pub fn general(a: &DMatrix<f64>) -> Result<(Vec<Complex64>, DMatrix<Complex64>), EigenError> {
@@ -36,7 +39,7 @@ pub fn general(a: &DMatrix<f64>) -> Result<(Vec<Complex64>, DMatrix<Complex64>),
     let (no, yes) = (ComputeEigenvectors::No, ComputeEigenvectors::Yes);
     let scratch = evd::evd_scratch::<f64>(n, no, yes, Par::Seq, params);
     // Sequential: faer's threads spin while waiting, which is very slow when all cores are busy.
-    evd::evd_real(
+    let solved = evd::evd_real(
         source.as_ref(),
         re.as_mut(),
         im.as_mut(),
@@ -45,8 +48,10 @@ pub fn general(a: &DMatrix<f64>) -> Result<(Vec<Complex64>, DMatrix<Complex64>),
         Par::Seq,
         MemStack::new(&mut MemBuffer::new(scratch)),
         params,
-    )
-    .map_err(|_| EigenError::NoConvergence)?;
+    );
+    if solved.is_err() {
+        return HessenbergForm::new(a).eigenpairs();
+    }
     let values: Vec<Complex64> = (0..n).map(|j| Complex64::new(re[j], im[j])).collect();
     // Columns j, j + 1 contain the real and the imaginary part of the first vector of a conjugate pair.
     let mut vectors = DMatrix::zeros(n, n);
@@ -63,8 +68,61 @@ pub fn general(a: &DMatrix<f64>) -> Result<(Vec<Complex64>, DMatrix<Complex64>),
         }
         j += if paired { 2 } else { 1 };
     }
+    replace_wrong_vectors(a, &values, &mut vectors);
     Ok((values, vectors))
 }
+
+/// A = Q H Qᵀ with an upper Hessenberg matrix H.
+struct HessenbergForm {
+    q: DMatrix<f64>,
+    h: DMatrix<f64>,
+}
+
+impl HessenbergForm {
+    fn new(a: &DMatrix<f64>) -> Self {
+        let (q, h) = nalgebra::Hessenberg::new(a.clone()).unpack();
+        Self { q, h }
+    }
+
+    /// As [`general`]: eigenvalues of H by QR steps, each eigenvector by inverse iteration.
+    ///
+    /// Slower than a Schur form, and the vectors of an eigenvalue that occurs several times are alike.
+    fn eigenpairs(&self) -> Result<(Vec<Complex64>, DMatrix<Complex64>), EigenError> {
+        let values = hessenberg::eigenvalues(&self.h)?;
+        let mut vectors = DMatrix::zeros(self.h.nrows(), values.len());
+        for (value, mut vector) in values.iter().zip(vectors.column_iter_mut()) {
+            vector.copy_from_slice(&self.eigenvector(*value));
+        }
+        Ok((values, vectors))
+    }
+
+    fn eigenvector(&self, value: Complex64) -> Vec<Complex64> {
+        multiply(&self.q, &hessenberg::nearest_eigenvector(&self.h, value))
+    }
+}
+
+/// Largest residual of an eigenpair of n rows, relative to n, round-off, and the lengths of matrix and vector.
+const MAX_RESIDUAL: f64 = 1e3;
+
+/// Replaces the eigenvectors that do not satisfy A x = θ x.
+fn replace_wrong_vectors(a: &DMatrix<f64>, values: &[Complex64], vectors: &mut DMatrix<Complex64>) {
+    let largest = MAX_RESIDUAL * a.nrows() as f64 * f64::EPSILON * a.norm();
+    let [re, im] = [a * vectors.map(|v| v.re), a * vectors.map(|v| v.im)];
+    let mut form = None;
+    for (j, value) in values.iter().enumerate() {
+        let mut x = vectors.column_mut(j);
+        let rest = x
+            .iter()
+            .enumerate()
+            .map(|(i, x)| (Complex64::new(re[(i, j)], im[(i, j)]) - value * x).norm_sqr());
+        if rest.sum::<f64>().sqrt() > largest * x.norm() {
+            x.copy_from_slice(&form.get_or_insert_with(|| HessenbergForm::new(a)).eigenvector(*value));
+        }
+    }
+}
+
+/// Steps for each row before the iteration of the Schur form gives up; three are usual.
+const SCHUR_STEPS: usize = 20;
 
 /// Eigenpairs of a small real matrix with Im θ ≥ 0 (one of each conjugate pair), in no given order.
 ///
@@ -78,7 +136,7 @@ pub fn general_small(a: &DMatrix<f64>) -> Result<Vec<(Complex64, Vec<Complex64>)
         return Err(EigenError::NotFinite);
     }
     let n = a.nrows();
-    let Some(schur) = nalgebra::Schur::try_new(a.clone(), f64::EPSILON, 100 * n) else {
+    let Some(schur) = nalgebra::Schur::try_new(a.clone(), f64::EPSILON, SCHUR_STEPS * n) else {
         let (values, vectors) = general(a)?;
         let pairs = values.into_iter().zip(vectors.column_iter()).filter(|(theta, _)| theta.im >= 0.0);
         return Ok(pairs.map(|(theta, vector)| (theta, vector.iter().copied().collect())).collect());

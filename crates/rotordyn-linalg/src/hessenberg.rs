@@ -41,7 +41,7 @@ pub fn eigenvalues(h: &DMatrix<f64>) -> Result<Vec<Complex64>, EigenError> {
             _ if all == MAX_STEPS * h.nrows() => return Err(EigenError::NoConvergence),
             _ => {
                 (steps, all) = (steps + 1, all + 1);
-                let shifts = shifts(&h, end, steps);
+                let shifts = shifts(&h, &(start..end), steps);
                 double_shift_step(&mut h, start..end, shifts);
                 continue;
             }
@@ -83,21 +83,43 @@ fn eigenvalues_of_two(h: &DMatrix<f64>, k: usize) -> [Complex64; 2] {
     [large.into(), small.into()]
 }
 
-/// Sum and product of the two shifts: the eigenvalues of the last 2×2 block.
-fn shifts(h: &DMatrix<f64>, end: usize, step: usize) -> [f64; 2] {
-    let (p, q) = (end - 2, end - 1);
+/// The two shifts, both real or a conjugate pair: the eigenvalues of the last 2×2 block, or twice the one nearest to the last element if
+/// both are real.
+///
+/// Unusual ones are of the size of the subdiagonal about the last element of the diagonal and the first one by turns.
+/// Source: LAPACK, dlahqr.
+fn shifts(h: &DMatrix<f64>, block: &std::ops::Range<usize>, step: usize) -> [Complex64; 2] {
+    let (p, q) = (block.end - 2, block.end - 1);
     if step.is_multiple_of(UNUSUAL) {
-        let size = h[(q, p)].abs() + h[(p, p - 1)].abs();
-        return [1.5 * size, size * size];
+        let (about, size) = if (step / UNUSUAL).is_multiple_of(2) {
+            let first = block.start;
+            (h[(first, first)], h[(first + 1, first)].abs() + h[(first + 2, first + 1)].abs())
+        } else {
+            (h[(q, q)], h[(q, p)].abs() + h[(p, p - 1)].abs())
+        };
+        // Eigenvalues of [m, −0.4375 size; size, m] with m = about + 0.75 size.
+        let pair = Complex64::new(about + 0.75 * size, 0.4375_f64.sqrt() * size);
+        return [pair, pair.conj()];
     }
-    [h[(p, p)] + h[(q, q)], h[(p, p)] * h[(q, q)] - h[(p, q)] * h[(q, p)]]
+    let [one, other] = eigenvalues_of_two(h, p);
+    if one.im == 0.0 {
+        let last = h[(q, q)];
+        return [if (one.re - last).abs() <= (other.re - last).abs() { one } else { other }; 2];
+    }
+    [one, other]
 }
 
-/// H ← Qᵀ H Q on the active block, the first column of Q being that of (H − s₁)(H − s₂).
-fn double_shift_step(h: &mut DMatrix<f64>, block: std::ops::Range<usize>, [sum, product]: [f64; 2]) {
+/// H ← Qᵀ H Q on the active block, the first column of Q being that of (H − s₁)(H − s₂), formed from differences: in a
+/// cluster they are all that is left.
+fn double_shift_step(h: &mut DMatrix<f64>, block: std::ops::Range<usize>, [s1, s2]: [Complex64; 2]) {
     let (first, end) = (block.start, block.end);
     let [a, b, c, d] = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| h[(first + i, first + j)]);
-    let mut x = [a * a + b * c - sum * a + product, c * (a + d - sum), c * h[(first + 2, first + 1)]];
+    let (to_one, to_other) = (a - s1.re, a - s2.re);
+    let mut x = [
+        to_one * to_other - s1.im * s2.im + b * c,
+        c * (to_one + (d - s2.re)),
+        c * h[(first + 2, first + 1)],
+    ];
     for k in first..end - 1 {
         let rows = (end - k).min(3);
         let (v, factor) = reflector(x, rows);

@@ -257,3 +257,108 @@ impl<'a> Search<'a> {
         self.arnoldi.as_ref().map_or_else(|| vector.to_vec(), |arnoldi| arnoldi.expand(vector))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// Mass, stiffness and gyroscopic matrices of a shaft of Euler beams in both planes with a disc in the middle, on springs
+    /// at its ends; unknowns u_x, θ_y, u_y, −θ_x of each node.
+    fn rotor(elements: usize, length: f64, spring: f64) -> [DMatrix<f64>; 3] {
+        let (l, d, e, rho) = (length / elements as f64, 0.04_f64, 210e9, 7850.0);
+        let (area, inertia) = (PI * d * d / 4.0, PI * d.powi(4) / 64.0);
+        let n = 4 * (elements + 1);
+        let [mut m, mut k, mut g] = [(); 3].map(|()| DMatrix::zeros(n, n));
+        let stiff = [
+            [12.0, 6.0 * l, -12.0, 6.0 * l],
+            [6.0 * l, 4.0 * l * l, -6.0 * l, 2.0 * l * l],
+            [-12.0, -6.0 * l, 12.0, -6.0 * l],
+            [6.0 * l, 2.0 * l * l, -6.0 * l, 4.0 * l * l],
+        ];
+        let mass = [
+            [156.0, 22.0 * l, 54.0, -13.0 * l],
+            [22.0 * l, 4.0 * l * l, 13.0 * l, -3.0 * l * l],
+            [54.0, 13.0 * l, 156.0, -22.0 * l],
+            [-13.0 * l, -3.0 * l * l, -22.0 * l, 4.0 * l * l],
+        ];
+        for element in 0..elements {
+            for plane in [0, 2] {
+                let at = |i: usize| 4 * (element + i / 2) + plane + i % 2;
+                for (i, j) in (0..4).flat_map(|i| (0..4).map(move |j| (i, j))) {
+                    k[(at(i), at(j))] += e * inertia / l.powi(3) * stiff[i][j];
+                    m[(at(i), at(j))] += rho * area * l / 420.0 * mass[i][j];
+                }
+            }
+        }
+        let disc = 4 * (elements / 2);
+        for (i, added) in [(0, 16.0), (1, 0.09), (2, 16.0), (3, 0.09)] {
+            m[(disc + i, disc + i)] += added;
+        }
+        (g[(disc + 1, disc + 3)], g[(disc + 3, disc + 1)]) = (0.18, -0.18);
+        for i in [0, 2, n - 4, n - 2] {
+            k[(i, i)] += spring;
+        }
+        [m, k, g]
+    }
+
+    /// Rotors with much damping of the shaft, whose overdamped modes crowd at −1/β, or with stiff dampers at its ends: the
+    /// lowest modes are found whatever the number asked for. With β K alone they are those of the closed form
+    /// λ = −β ω²/2 ± j ω √(1 − (β ω/2)²).
+    #[test]
+    fn strong_damping_does_not_stop_the_search() {
+        let shaft = |beta| (beta, 0.0);
+        let damped =
+            [1e-5, 1e-4, 5e-4, 1e-3, 1e-2].map(shaft).into_iter().chain([(0.0, 1e6), (0.0, 1e8), (0.0, 1e9)]);
+        for (beta, damper) in damped {
+            for (elements, speed, count) in
+                [(16, 1e-7, 8), (16, 1e-7, 16), (16, 39.0, 12), (16, 39.0, 16), (20, 314.0, 16)]
+            {
+                let [m, k, g] = rotor(elements, 0.8, 2e7);
+                let mut c = &k * beta + &g * speed;
+                let n = c.nrows();
+                [0, 2, n - 4, n - 2].iter().for_each(|&i| c[(i, i)] += damper);
+                let [ms, cs, ks] = [&m, &c, &k].map(SparseMatrix::from_dense);
+                let case = format!("β = {beta} s, {damper} N s/m, {speed} rad/s, {count} modes");
+                let found = lowest_eigenpairs(&ms, &cs, &ks, count, 30.0).expect(&case);
+                let (squares, _) = eigen::undamped(&k, &m, 1.0).unwrap();
+                let ratio = |square: &f64| 0.5 * beta * square.sqrt();
+                let clearly =
+                    squares.iter().take(count).filter(|square| damper == 0.0 && ratio(square) < 0.9);
+                assert!(found.len() >= clearly.count(), "{case}: {}", found.len());
+                for pair in &found {
+                    assert!(
+                        rest([&m, &c, &k], pair) < 1e-7,
+                        "{case}: {} {:e}",
+                        pair.value,
+                        rest([&m, &c, &k], pair)
+                    );
+                }
+                if speed > 1.0 || damper > 0.0 {
+                    continue;
+                }
+                let oscillating = squares.iter().filter(|square| ratio(square) < 0.9999).take(count);
+                for (square, found) in oscillating.zip(&found) {
+                    let zeta = ratio(square);
+                    let expected = square.sqrt() * Complex64::new(-zeta, (1.0 - zeta * zeta).sqrt());
+                    assert!(
+                        (expected - found.value).norm() < 1e-7 * expected.norm(),
+                        "{case}: {expected} {}",
+                        found.value
+                    );
+                }
+            }
+        }
+    }
+
+    /// ‖(λ² M + λ C + K) φ‖ over ‖|K| |φ|‖, which round-off is of.
+    fn rest(matrices: [&DMatrix<f64>; 3], pair: &QuadraticPair) -> f64 {
+        let shape = nalgebra::DVector::from_vec(pair.vector.clone());
+        let products = matrices
+            .into_iter()
+            .zip([2, 1, 0])
+            .map(|(a, power)| a.map(Complex64::from) * &shape * pair.value.powi(power));
+        let size = (matrices[2].abs() * shape.map(|v| v.norm())).norm();
+        products.sum::<nalgebra::DVector<Complex64>>().norm() / size
+    }
+}
