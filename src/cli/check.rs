@@ -12,11 +12,12 @@ use rotordyn::warning::Warning;
 use serde_json::{Value, json};
 
 use super::args::ModelArgs;
+use super::bearing_list::{self, ListedBearing};
 use super::failure::Failure;
 use super::machine::ModelSource;
 use super::studies::Study;
 use super::terminal::{Terminal, counted, number, rpm};
-use super::{defaults, equilibrium_loads, forecast};
+use super::{check_bearings, defaults, equilibrium_loads, forecast};
 
 /// Check result of one variant.
 struct CheckedVariant {
@@ -39,6 +40,9 @@ pub fn run(args: &ModelArgs, terminal: &Terminal) -> Result<Value, Failure> {
         None => std::iter::once("base".to_string()).chain(origin.variants()).collect(),
     };
     // The first one separately: its errors usually apply to all variants.
+    if origin.has_bearings_only() {
+        return check_bearings::run(&origin, &names, terminal);
+    }
     let (first, others) = names.split_first().ok_or_else(|| Failure::Input("nothing to check".into()))?;
     let first = check(&origin, first)?;
     let others: Vec<Result<CheckedVariant, (String, Failure)>> =
@@ -178,40 +182,19 @@ fn summary(terminal: &Terminal, found: &CheckedVariant) {
         .collect();
     terminal.table("Stations", &["station", "z mm", "node", "components"], &rows);
 
-    let rows: Vec<Vec<String>> = model
-        .bearings
-        .iter()
-        .map(|site| {
-            let mut row = vec![site.name.clone()];
-            let model = site.bearing.description();
-            match site.bearing.ball() {
-                None => row.push(model),
-                Some(ball) => {
-                    let g = &ball.geometry;
-                    let orders = g.characteristic_orders(g.contact_angle);
-                    let comma = if model.is_empty() { "" } else { ", " };
-                    let diameter = number(1e3 * g.ball_diameter, 4);
-                    row.push(format!("{} balls of {diameter} mm{comma}{model}", g.balls));
-                    row.push(number(1e3 * g.pitch_diameter, 5));
-                    row.push(format!("{:.1}", 1e6 * g.radial_clearance));
-                    row.push(format!("{:.0}", g.contact_angle.to_degrees()));
-                    let orders = [orders.ftf, orders.bpfo, orders.bpfi, orders.bsf];
-                    row.extend(orders.iter().map(|o| format!("{o:.4}")));
-                }
-            }
-            row
+    bearing_list::print(terminal, &listed_bearings(model));
+}
+
+fn listed_bearings(model: &Model) -> Vec<ListedBearing<'_>> {
+    let sites = model.bearings.iter();
+    sites
+        .map(|site| ListedBearing {
+            name: &site.name,
+            keyword: site.bearing.keyword(),
+            description: site.bearing.description(),
+            balls: site.bearing.ball(),
         })
-        .collect();
-    if !rows.is_empty() {
-        let header =
-            ["bearing", "model", "pitch mm", "clearance um", "angle deg", "FTF", "BPFO", "BPFI", "BSF"];
-        let balls = rows.iter().any(|row| row.len() > 2);
-        let header = if balls { &header[..] } else { &header[..2] };
-        terminal.table("Bearings and their defect frequencies per revolution", header, &rows);
-        for (name, how) in model.estimated_geometries() {
-            terminal.print(&format!("  internal geometry of {name} {how}"));
-        }
-    }
+        .collect()
 }
 
 /// Names of the components at a shaft node.
@@ -231,29 +214,6 @@ fn all_warnings(found: &CheckedVariant) -> Vec<Warning> {
 }
 
 fn to_json(found: &CheckedVariant) -> Value {
-    let bearings: Vec<Value> = found
-        .loaded
-        .model
-        .bearings
-        .iter()
-        .map(|site| match site.bearing.ball() {
-            None => json!({ "name": site.name, "model": site.bearing.keyword() }),
-            Some(ball) => {
-                let g = &ball.geometry;
-                let o = g.characteristic_orders(g.contact_angle);
-                json!({
-                    "name": site.name,
-                    "model": site.bearing.keyword(),
-                    "balls": g.balls,
-                    "ball_diameter": g.ball_diameter,
-                    "pitch_diameter": g.pitch_diameter,
-                    "radial_clearance": g.radial_clearance,
-                    "estimated_geometry": ball.estimated_geometry,
-                    "orders": { "ftf": o.ftf, "bpfo": o.bpfo, "bpfi": o.bpfi, "bsf": o.bsf },
-                })
-            }
-        })
-        .collect();
     let side_files = found.side_files.iter().map(|(path, bytes)| json!({ "path": path, "bytes": bytes }));
     let side_files: Vec<Value> = side_files.collect();
     let belts: Vec<_> = found.machine.belt_pulls().iter().map(|b| (b.name.clone(), b.document())).collect();
@@ -267,7 +227,7 @@ fn to_json(found: &CheckedVariant) -> Value {
         "shaft_elements": found.loaded.model.shaft.len(),
         "rigid_body_modes": found.rigid_body_modes,
         "side_files": side_files,
-        "bearings": bearings,
+        "bearings": bearing_list::to_json(&listed_bearings(&found.loaded.model)),
         "belts": json::groups("name", &belts),
         "preloads": json::groups("bearing", &preloads),
         "forecast": forecast::to_json(&found.machine),

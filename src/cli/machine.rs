@@ -81,6 +81,11 @@ impl ModelSource {
         Ok(loaded)
     }
 
+    /// Whether the file states bearings alone, without a machine.
+    pub fn has_bearings_only(&self) -> bool {
+        model::has_bearings_only(&self.text, &self.options)
+    }
+
     /// Options of the user, with settings of the command after them.
     pub fn options_with(&self, settings: &Settings) -> Options {
         let mut options = self.options.clone();

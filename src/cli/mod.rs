@@ -3,11 +3,13 @@
 pub(crate) mod args;
 mod ball_motion_tables;
 pub(crate) mod bearing;
+mod bearing_list;
 mod bearing_motion;
 mod bearing_tables;
 mod cage_tables;
 pub(crate) mod catalogue;
 mod check;
+mod check_bearings;
 mod checkpoint;
 mod command_help;
 mod compare;

@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::studies::{Job, Study};
 use super::terminal::Terminal;
 use miette::Severity;
-use rotordyn::model::{Diagnostic, Loaded};
+use rotordyn::model::{Diagnostic, Loaded, Source};
 use rotordyn::results::Results;
 use rotordyn::study::Machine;
 use rotordyn::warning::Warning;
@@ -127,13 +127,23 @@ pub(super) fn print_written_files(terminal: &Terminal, folder: &Path, files: &[P
 
 /// Prints the warnings and hints of the model file.
 pub(super) fn print_model_warnings(terminal: &Terminal, loaded: &Loaded) {
-    super::renamed::print_hints(&loaded.hints, &loaded.sources, terminal);
+    print_file_warnings(terminal, &loaded.hints, &loaded.warnings, &loaded.sources);
+}
+
+/// Hints and warnings of a model file; those printed before are not repeated.
+pub(super) fn print_file_warnings(
+    terminal: &Terminal,
+    hints: &[Diagnostic],
+    warnings: &[Diagnostic],
+    sources: &[Source],
+) {
+    super::renamed::print_hints(hints, sources, terminal);
     // Those of the file itself are those of each of its variants.
     let known = terminal.warnings();
     let is_new = |found: &&Diagnostic| found.to_warning().is_none_or(|warning| !known.contains(&warning));
-    let found: Vec<Diagnostic> = loaded.warnings.iter().filter(is_new).cloned().collect();
+    let found: Vec<Diagnostic> = warnings.iter().filter(is_new).cloned().collect();
     if !found.is_empty() {
-        let text = super::diagnostics::render(&found, &loaded.sources, Severity::Warning, terminal.colour);
+        let text = super::diagnostics::render(&found, sources, Severity::Warning, terminal.colour);
         terminal.diagnostics(&text);
         found.iter().filter_map(Diagnostic::to_warning).for_each(|w| terminal.record_warning(w));
     }

@@ -14,8 +14,8 @@ pub use build::catalogue;
 pub use file::renamed::renamed_path;
 pub use file::{DefaultValue, Diagnostic, GivenValue, Kind, ModelErrors, Source};
 pub use load::{
-    Loaded, LoadedBearings, Options, external_files, item_span, load, load_bearings, load_bearings_with,
-    load_with, variants,
+    Loaded, LoadedBearings, Options, external_files, has_bearings_only, item_span, load, load_bearings,
+    load_bearings_with, load_with, variants,
 };
 pub use rotordyn_core::model::*;
 pub use written_out::written_out;

@@ -7,7 +7,7 @@ use super::file::diagnostic::{Log, Problem, Sources};
 use super::file::given::given_values;
 use super::file::overlay::{apply_set, apply_variant};
 use super::file::renamed;
-use super::file::tree::{Table, Value};
+use super::file::tree::{Entry, Table, Value};
 use super::file::{DefaultValue, Diagnostic, GivenValue, Kind, ModelErrors, Source};
 use super::keys::{self, KindName};
 use super::study::Studies;
@@ -350,6 +350,20 @@ pub fn external_files(text: impl AsRef<[u8]>, options: &Options) -> Vec<String> 
         },
         _ => Vec::new(),
     }
+}
+
+/// Whether a model file states bearings alone: none of its tables is one of a machine, and no bearing has a station.
+pub fn has_bearings_only(text: impl AsRef<[u8]>, options: &Options) -> bool {
+    let Ok(document) = Document::read("", text.as_ref(), options) else { return false };
+    let Some(Value::Table(bearings)) = document.root.get("bearing").map(|e| &e.node.value) else {
+        return false;
+    };
+    let is_placed =
+        |entry: &Entry| matches!(&entry.node.value, Value::Table(t) if t.get("station").is_some());
+    let is_of_bearings = |key: &str| {
+        ["$schema", "model", "material", "lubricant", "bearing", "study", "variant"].contains(&key)
+    };
+    document.root.keys().all(is_of_bearings) && !bearings.entries().iter().any(is_placed)
 }
 
 /// Names of the variants of a model file, in file order; empty if it is not valid TOML.

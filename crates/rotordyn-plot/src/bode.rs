@@ -35,6 +35,10 @@ pub struct Bode {
     pub criticals: Vec<Critical>,
 }
 
+/// Decades that a logarithmic axis shows of every curve, from its peak down: near standstill the response to an
+/// unbalance grows with the square of the speed, from nothing.
+const SHOWN_DECADES: i32 = 4;
+
 pub fn draw(data: &Bode) -> Svg {
     let entries: Vec<Entry> =
         data.curves.iter().enumerate().map(|(k, c)| Entry::line(&c.label, curve(k))).collect();
@@ -44,7 +48,8 @@ pub fn draw(data: &Bode) -> Svg {
     let x = Range::of(data.curves.iter().flat_map(|c| c.rpm.iter().copied())).near_zero();
     let amplitudes = data.curves.iter().flat_map(|c| c.amplitude.iter().copied());
     let amplitude = if data.log {
-        Axes::log_y(frames[0], x, Range::positive(amplitudes).log_padded(0.04))
+        let floor = axis_floor(&data.curves);
+        Axes::log_y(frames[0], x, Range::positive(amplitudes.filter(|a| *a >= floor)).log_padded(0.04))
     } else {
         Axes::linear(frames[0], x, Range::with_zero(amplitudes).padded_top(0.06))
     };
@@ -71,4 +76,10 @@ pub fn draw(data: &Bode) -> Svg {
     phase.border(&mut svg, Some(&phase.x.label("shaft speed", "rpm")), "phase [°]");
     svg.height = frames[1].bottom() + BOTTOM;
     svg
+}
+
+/// Least amplitude that a logarithmic axis shows.
+fn axis_floor(curves: &[BodeCurve]) -> f64 {
+    let peaks = curves.iter().map(|c| c.amplitude.iter().copied().fold(0.0, f64::max));
+    peaks.filter(|peak| *peak > 0.0).fold(f64::INFINITY, f64::min) * 10f64.powi(-SHOWN_DECADES)
 }

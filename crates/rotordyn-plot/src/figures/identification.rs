@@ -1,11 +1,13 @@
 //! Figures of an identification: stabilisation diagram, auto-MAC, synthesised FRFs, mode shapes.
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 use nalgebra::DMatrix;
 
 use super::Named;
 use super::display_unit::typographic_unit;
+use super::geometry_lines::lines_between_points;
 use crate::{Figure, Frf, FrfCurve, Matrix, PoleStability, Stabilisation, WireShape, Wireframe};
 use rotordyn_core::model::Quantity;
 use rotordyn_identify::operational::{OperationalMode, OperationalModes};
@@ -235,12 +237,14 @@ fn shapes(modes: &[DrawnMode], geometry: &Geometry, title: &str) -> Option<Named
         }
         WireShape { title: format!("{}: {:.2} Hz, {:.2} %", k + 1, mode.hz, 100.0 * mode.zeta), motion }
     };
-    let stroke = |stroke: &Vec<i64>| stroke.iter().filter_map(|n| index(*n)).collect::<Vec<_>>();
     let figure = Wireframe {
         title: "Identified mode shapes".into(),
         note: format!("{title}; real part at the phase of the largest deflection"),
         points: geometry.nodes.iter().map(|n| n.position).collect(),
-        strokes: geometry.lines.iter().flat_map(|line| line.strokes.iter().map(stroke)).collect(),
+        strokes: lines_between_points(
+            geometry,
+            &dofs.iter().filter_map(|d| index(d.node)).collect::<BTreeSet<_>>(),
+        ),
         shapes: modes.iter().enumerate().map(shape).collect(),
     };
     Some(("mode_shapes".into(), Figure::Wireframe(figure)))

@@ -38,6 +38,7 @@ mod display_unit;
 mod drawn;
 mod folder;
 mod free_ball;
+mod geometry_lines;
 pub mod identification;
 mod machine;
 mod named;
