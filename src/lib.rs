@@ -88,6 +88,7 @@
 //!     channels: vec!["disc_y".into()],
 //!     resolution: 0.5,
 //!     max_order: 5.0,
+//!     max_order_is_default: false,
 //!     overlap: 0.5,
 //!     window: study::WindowKind::Hann,
 //!     cuts: vec![1.0],

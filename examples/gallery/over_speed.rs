@@ -186,7 +186,7 @@ pub fn order_map() -> Figure {
         unit: "dB re 1 m/s²".to_string(),
         span_db: 60.0,
         orders: orders(),
-        max_order: None,
+        ..OrderMap::default()
     })
 }
 

@@ -354,3 +354,20 @@ fn defects_are_reported_and_averaging_warns() {
     let (_, warnings) = run(&["--cage-average"]);
     assert!(warnings.contains("(dent on outer race) is averaged"), "{warnings}");
 }
+
+/// `check` takes a file with bearings only, as `bearing` does; one with a bearing in its place is a machine without shaft.
+#[test]
+fn check_lists_bearings_without_a_machine() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("alone.toml");
+    std::fs::write(&file, ALONE).unwrap();
+    let document = json_of(rotordyn().arg("check").arg(&file));
+    let bearing = &document["variants"][0]["bearings"][0];
+    assert_eq!((&bearing["name"], &bearing["balls"]), (&"front".into(), &13.into()));
+    let text = output_of(rotordyn().arg("check").arg(&file));
+    assert!(text.contains("front") && text.contains("BPFO"), "{text}");
+    std::fs::write(&file, format!("{ALONE}station = \"front\"\n")).unwrap();
+    let output = rotordyn().arg("check").arg(&file).output().unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && errors.contains("no [shaft] table"), "{errors}");
+}

@@ -1,6 +1,6 @@
 //! What a run-up says of itself: energy balance, instability, error by the step, names of cuts, and its exit code.
 
-use super::rotordyn;
+use super::{json_of, rotordyn};
 use serde_json::Value;
 
 /// A rigid rotor of 5 kg on two bearings; `more`: tables after the bearings.
@@ -232,4 +232,60 @@ fn cuts_that_cannot_be_made_are_refused_before_the_run() {
     let found =
         document(&rotor([LINEAR, LINEAR], &format!("{more}{UNBALANCE}")), &["run-up", "model.toml"], 2);
     assert!(found["run_up"].is_null(), "{found}");
+}
+
+/// A bearing's lines stand where its cage turns, under an axial load 2 % above the nominal order: the level of "BPFO" is that
+/// of the line which the record has, by the recorded cage angle, and not that of the gap beside it.
+#[test]
+fn order_cuts_of_bearings_follow_the_loaded_cage() {
+    let ball = "model = \"ball\"\ndesignation = \"6205\"\nradial_clearance = \"20 um\"\n\
+                defect = [{ kind = \"dent\", on = \"outer\", centre = \"270 deg\", width = \"0.5 mm\" }]";
+    let linear = "model = \"linear\"\nk_xx = \"5e7 N/m\"\nk_yy = \"5e7 N/m\"\nc_xx = \"100 N s/m\"\nc_yy = \"100 N s/m\"";
+    let more = "[load.axial]\nat = \"rotor\"\nforce = \"0, 0, 1500 N\"\n[probe.ay]\nat = \"rotor\"\ndirection = \"y\"\n\
+                quantity = \"acceleration\"\n[speed]\nprofile = \"constant\"\nspeed = \"3000 rpm\"\nduration = \"1 s\"\n\
+                [study.run_up]\nsample_rate = \"10 kHz\"\n[study.orders]\nchannels = [\"ay\"]\ncuts = [1, \"2 BPFO\"]\n";
+    let folder = tempfile::tempdir().unwrap();
+    let (file, out) = (folder.path().join("m.toml"), folder.path().join("out"));
+    std::fs::write(&file, rotor([ball, linear], more)).unwrap();
+    let mut run = rotordyn();
+    json_of(run.arg("run-up").arg(&file).args(["--no-figures", "--out"]).arg(&out));
+    // The loaded order by the statics of the bearing.
+    let mut statics = rotordyn();
+    let bearing = json_of(
+        statics.arg("bearing").arg(&file).args(["--no-figures", "--out"]).arg(folder.path().join("b")),
+    );
+    let order = 2.0 * bearing["bearings"][0]["operating"]["bpfo"].as_f64().unwrap();
+    let mut orders = rotordyn();
+    let cuts = format!("2 BPFO,{order},7.1444");
+    let document = json_of(orders.arg("orders").arg(&out).args(["--no-figures", "--orders", &cuts]));
+    let found = document["orders"][0]["cuts"].as_array().unwrap();
+    let level = |k: usize| {
+        found[k]["rms"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).fold(0.0, f64::max)
+    };
+    assert!((found[0]["order"].as_f64().unwrap() - order).abs() < 1e-3, "{} {order}", found[0]["order"]);
+    assert!((order - 7.1444).abs() > 0.05 && (level(0) / level(1) - 1.0).abs() < 0.01, "{found:?}");
+    assert!(level(2) < 0.5 * level(0), "{found:?}");
+}
+
+/// A shaft that reverses under its drive is tracked both ways, and the highest order fits the speed that it reaches.
+#[test]
+fn driven_shafts_are_tracked_at_every_speed() {
+    let linear = "model = \"linear\"\nk_xx = \"5e7 N/m\"\nk_yy = \"5e7 N/m\"\nc_xx = \"500 N s/m\"\nc_yy = \"500 N s/m\"";
+    let windows = |from: &str, torque: &str, duration: &str| {
+        let more = format!(
+            "[drive]\nkind = \"torque\"\nstation = \"D\"\nspeed = \"-3600, 3600 rpm\"\ntorque = \"{torque}, {torque} N m\"\n\
+             [unbalance.u]\nstation = \"D\"\nmagnitude = \"100 g mm\"\n\
+             [speed]\nprofile = \"constant\"\nspeed = \"{from}\"\nduration = \"{duration}\"\n\
+             [study.run_up]\nsample_rate = \"2 kHz\"\n[study.orders]\nchannels = [\"Ay\"]\ncuts = [1]\n"
+        );
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("m.toml");
+        std::fs::write(&file, rotor([linear; 2], &more)).unwrap();
+        let mut run = rotordyn();
+        let run = run.arg("run-up").arg(&file).args(["--no-figures", "--out"]).arg(folder.path().join("out"));
+        let document = json_of(run);
+        document["orders"][0]["cuts"][0]["speed_rpm"].as_array().unwrap().len()
+    };
+    // From 1200 rpm to as much backward; to 3400 rpm, where 20 orders would need 3 kHz.
+    assert!(windows("1200 rpm", "-0.5", "5 s") >= 15 && windows("0 rpm", "1.2", "3 s") >= 10);
 }

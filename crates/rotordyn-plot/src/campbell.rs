@@ -212,9 +212,19 @@ fn mark_branch(svg: &mut Svg, axes: &Axes, branch: &Branch, values: &[f64]) {
 
 /// Order lines over axes of rpm and Hz; returns the labels of their ends.
 pub(super) fn order_lines(svg: &mut Svg, axes: &Axes, orders: &[OrderLine]) -> Vec<EndLabel> {
+    order_lines_at(svg, axes, orders, None)
+}
+
+/// As [`order_lines`]; over an axis of times at a constant speed \[rpm\].
+pub(super) fn order_lines_at(
+    svg: &mut Svg,
+    axes: &Axes,
+    orders: &[OrderLine],
+    constant: Option<f64>,
+) -> Vec<EndLabel> {
     let mut labels = Vec::new();
     for order in orders {
-        let line = order_line(axes, order);
+        let line = order_line(axes, order, constant);
         svg.polyline(&line, order.style());
         if let Some(&at) = line.last() {
             labels.push(EndLabel { at, text: order.label.clone(), color: order.color() });
@@ -224,8 +234,8 @@ pub(super) fn order_lines(svg: &mut Svg, axes: &Axes, orders: &[OrderLine]) -> V
 }
 
 /// An order line inside the panel.
-fn order_line(axes: &Axes, order: &OrderLine) -> Vec<Point> {
-    let hz = |rpm: f64| order.order * rpm / 60.0;
+fn order_line(axes: &Axes, order: &OrderLine, constant: Option<f64>) -> Vec<Point> {
+    let hz = |x: f64| order.order * constant.unwrap_or(x) / 60.0;
     let (a, b) = (axes.x.range.lo, axes.x.range.hi);
     clip(&[axes.at(a, hz(a)), axes.at(b, hz(b))], axes.frame)
 }
@@ -261,7 +271,7 @@ fn criticals(svg: &mut Svg, axes: &Axes, data: &Campbell) {
         obstacles.add_line(&clip(&points, axes.frame), 4.0);
     }
     for order in &data.orders {
-        obstacles.add_line(&order_line(axes, order), 1.0);
+        obstacles.add_line(&order_line(axes, order, None), 1.0);
     }
     for (at, label) in &marks {
         Marker::Circle.draw(svg, *at, CRITICAL);

@@ -15,6 +15,7 @@ pub mod figures;
 mod arcs;
 pub mod axes;
 mod color_map;
+mod constant_speed;
 mod contour;
 mod decimate;
 mod font;

@@ -2,7 +2,8 @@
 //! frequencies.
 
 use super::axes::Axes;
-use super::campbell::{Branch, OrderLine, branch_ends, order_lines};
+use super::campbell::{Branch, OrderLine, branch_ends, order_lines_at};
+use super::constant_speed::{constant_speed, note_with_speed};
 use super::heat::{self, COLOR_BAR_WIDTH, color_bar};
 use super::labels::{Entry, end_label_width, end_labels, page_heading};
 use super::panel_row::PanelRow;
@@ -10,14 +11,16 @@ use super::scale::{Range, widened};
 use super::style::*;
 use super::svg::{Style, Svg};
 use rotordyn_core::series::{Series, SeriesError};
+use rotordyn_linalg::piecewise_within;
 
 /// Spectrogram of one run.
 #[derive(Clone, Debug, Default)]
 pub struct SpectrogramPanel {
     /// Panel name, shown if there are several, e.g. "measured".
     pub name: String,
-    /// Shaft speed of each spectrum \[rpm\].
+    /// Shaft speed of each spectrum \[rpm\], and its time \[s\], over which it is drawn if the speed is constant.
     pub rpm: Vec<f64>,
+    pub time: Vec<f64>,
     /// Frequencies \[Hz\].
     pub hz: Vec<f64>,
     /// Levels \[dB\], `level_db[i * hz.len() + j]` at `rpm[i]`, `hz[j]`.
@@ -69,13 +72,18 @@ pub fn draw(data: &Spectrogram) -> Result<Svg, SeriesError> {
     let room = end_label_width(names.cloned());
     let row = PanelRow::new(data.panels.len(), WIDTH - LEFT - room - COLOR_BAR_WIDTH);
     let page = LEFT + row.width() + room + COLOR_BAR_WIDTH;
-    let (mut svg, top) = page_heading(page, LEFT, &data.title, &data.note, &kinds);
+    let constant = constant_speed(data.panels.iter().map(|p| [&p.rpm[..], &p.time]));
+    let note = note_with_speed(&data.note, constant);
+    let (mut svg, top) = page_heading(page, LEFT, &data.title, &note, &kinds);
     let all_values = |of: fn(&SpectrogramPanel) -> &[f64]| data.panels.iter().flat_map(of).copied();
     let y = match data.max_hz.filter(|hz| hz.is_finite() && *hz > 0.0) {
         Some(hz) => Range::new(0.0, hz),
         None => Range::of(all_values(|p| &p.hz)).near_zero(),
     };
-    let x = Range::of(all_values(|p| &p.rpm)).near_zero();
+    let x = match constant {
+        Some(_) => Range::of(all_values(|p| &p.time)),
+        None => Range::of(all_values(|p| &p.rpm)).near_zero(),
+    };
     let levels = data.panels.iter().try_fold(None, |seen, p| p.level_db.fold(seen, widened))?;
     let bounds = heat::bounds_between(levels, data.span_db);
     let count = data.panels.len().max(1);
@@ -84,20 +92,25 @@ pub fn draw(data: &Spectrogram) -> Result<Svg, SeriesError> {
     for k in 0..count {
         let axes = Axes::linear(row.frame(k, top + 16.0, 420.0), x, y);
         let panel = data.panels.get(k).unwrap_or(&none);
-        heat::draw_rows(&mut svg, &axes, bounds, [&panel.rpm, &panel.hz], &panel.level_db)?;
+        let places = if constant.is_some() { &panel.time } else { &panel.rpm };
+        heat::draw_rows(&mut svg, &axes, bounds, [places, &panel.hz], &panel.level_db)?;
         // A pale edge keeps the dashes visible on dark levels.
         for order in panel.orders(data) {
-            let at = |rpm: f64| [rpm, order.order * rpm / 60.0];
+            let at = |x: f64| [x, order.order * constant.unwrap_or(x) / 60.0];
             axes.segment(&mut svg, at(x.lo), at(x.hi), Style::stroke(WHITE, 2.0).faint(0.45));
         }
-        let mut labels = order_lines(&mut svg, &axes, panel.orders(data));
-        for branch in panel.branches(data) {
+        let mut labels = order_lines_at(&mut svg, &axes, panel.orders(data), constant);
+        let at_speed: Vec<Branch> =
+            panel.branches(data).iter().filter_map(|b| level_branch(b, constant?, x)).collect();
+        let branches = if constant.is_some() { &at_speed } else { panel.branches(data) };
+        for branch in branches {
             // A white edge separates the thin line from the ridge below.
             axes.curve(&mut svg, &branch.rpm, &branch.hz, Style::stroke(WHITE, 2.6).faint(0.75));
             branch.curves(&mut svg, &axes, &branch.hz, |whirl| Style::stroke(whirl.color(), 1.1));
         }
-        labels.extend(branch_ends(&axes, panel.branches(data)));
-        row.border(&mut svg, &axes, k, ("shaft speed", "rpm"), ("frequency", "Hz"));
+        labels.extend(branch_ends(&axes, branches));
+        let below = if constant.is_some() { ("time", "s") } else { ("shaft speed", "rpm") };
+        row.border(&mut svg, &axes, k, below, ("frequency", "Hz"));
         row.name(&mut svg, axes.frame, &panel.name);
         if row.ends_row(k) {
             end_labels(&mut svg, &axes, &labels);
@@ -108,4 +121,18 @@ pub fn draw(data: &Spectrogram) -> Result<Svg, SeriesError> {
         }
     }
     Ok(svg)
+}
+
+/// A branch at one speed, drawn over a range of times; `None` where it is not known at that speed.
+fn level_branch(branch: &Branch, rpm: f64, over: Range) -> Option<Branch> {
+    let points: Vec<[f64; 2]> = branch.rpm.iter().zip(&branch.hz).map(|(x, y)| [*x, *y]).collect();
+    let [_, hz] = piecewise_within(&points, rpm)?;
+    let at = branch.rpm.partition_point(|x| *x < rpm).min(branch.whirl.len().checked_sub(1)?);
+    Some(Branch {
+        label: branch.label.clone(),
+        whirl: vec![branch.whirl[at]; 2],
+        rpm: vec![over.lo, over.hi],
+        hz: vec![hz; 2],
+        log_decrement: Vec::new(),
+    })
 }

@@ -332,24 +332,35 @@ impl OrderSpectrogram {
     /// order reads up to 1 % low or high, one a bin from it 8 % low; white noise reads as √(bins/D) times that of one bin.
     /// Errors: no bin in the band.
     pub fn cut(&self, order: f64, half_band: f64) -> Result<OrderCut, SignalError> {
-        let band = self.band(order, half_band);
-        check(!band.is_empty(), "order band", "a band that contains an order bin", order)?;
-        let share = self.line_share(band.clone(), order);
+        self.cut_along(order, &vec![order; self.times.len()], half_band)
+    }
+
+    /// As [`Self::cut`] of a line whose order changes along the run: `orders` of the windows, `order` their mean.
+    ///
+    /// Errors: no bin in a band.
+    pub fn cut_along(&self, order: f64, orders: &[f64], half_band: f64) -> Result<OrderCut, SignalError> {
         let to_rms = |k: usize| match self.level {
             Level::Peak if k > 0 => 1.0 / SQRT_2,
             _ => 1.0,
         };
-        let rms = |window: usize| {
+        let mut known: Option<(f64, std::ops::Range<usize>, f64)> = None;
+        let mut rms = Vec::with_capacity(orders.len());
+        for (window, &order) in orders.iter().enumerate() {
+            let (_, band, share) = match known.take().filter(|(of, ..)| *of == order) {
+                Some(same) => same,
+                None => {
+                    let band = self.band(order, half_band);
+                    check(!band.is_empty(), "order band", "a band that contains an order bin", order)?;
+                    let share = self.line_share(band.clone(), order);
+                    (order, band, share)
+                }
+            };
             let row = self.row(window);
             let power: f64 = band.clone().map(|k| (row[k] * to_rms(k)).powi(2)).sum();
-            (power / share).sqrt()
-        };
-        Ok(OrderCut {
-            order,
-            times: self.times.clone(),
-            rpm: self.rpm.clone(),
-            rms: (0..self.times.len()).map(rms).collect(),
-        })
+            rms.push((power / share).sqrt());
+            known = Some((order, band, share));
+        }
+        Ok(OrderCut { order, times: self.times.clone(), rpm: self.rpm.clone(), rms })
     }
 
     /// Order spectrum averaged in power over all windows between two speeds \[rpm\].

@@ -25,7 +25,7 @@ pub const SAMPLES_PER_ORDER: f64 = 2.56;
 /// Why a stretch of the record is not in the angle-uniform result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SkipReason {
-    /// The shaft stands, turns slower than the least speed, or turns back.
+    /// The shaft stands, turns slower than the least speed, or turns back by less than a revolution.
     Standstill,
     /// The shaft turns, but for less than one revolution.
     LessThanOneRevolution,
@@ -39,7 +39,8 @@ pub struct Skipped {
     pub reason: SkipReason,
 }
 
-/// A stretch with the shaft turning one way; output k is at shaft angle 2π (first + k) / S.
+/// A stretch with the shaft turning one way; output k is at shaft angle 2π (first + k) / S, counted in the sense in which
+/// it turns there.
 #[derive(Clone, Debug)]
 pub struct AnglePart {
     /// Index of the first output on the angle grid that begins at θ = 0.
@@ -107,9 +108,22 @@ impl AngleResampler {
             }
             if turning && revolutions >= 1.0 {
                 parts.push(AnglePart::new(&turns, samples, sample_rate, per_revolution));
+            } else if turning {
+                skipped.push(Skipped { samples, reason: SkipReason::LessThanOneRevolution });
             } else {
-                let reason = if turning { SkipReason::LessThanOneRevolution } else { SkipReason::Standstill };
-                skipped.push(Skipped { samples, reason });
+                let mut rest = samples.start;
+                for turned in turning_back(&turns, samples.clone(), least_step) {
+                    if turned.start > rest {
+                        let samples = rest..turned.start + 1;
+                        skipped.push(Skipped { samples, reason: SkipReason::Standstill });
+                    }
+                    rest = turned.end - 1;
+                    let back: Vec<f64> = turns[..turned.end].iter().map(|turn| -turn).collect();
+                    parts.push(AnglePart::new(&back, turned, sample_rate, per_revolution));
+                }
+                if rest + 1 < samples.end {
+                    skipped.push(Skipped { samples: rest..samples.end, reason: SkipReason::Standstill });
+                }
             }
             start += more;
         }
@@ -219,6 +233,21 @@ impl AnglePart {
         }
         out
     }
+}
+
+/// Stretches of a range in which the shaft turns back by a revolution or more.
+fn turning_back(turns: &[f64], samples: Range<usize>, least_step: f64) -> Vec<Range<usize>> {
+    let mut found = Vec::new();
+    let mut start = samples.start;
+    while start + 1 < samples.end {
+        let steps = turns[start..samples.end].windows(2);
+        let steps = steps.take_while(|pair| pair[0] - pair[1] >= least_step).count();
+        if turns[start] - turns[start + steps] >= 1.0 {
+            found.push(start..start + steps + 1);
+        }
+        start += steps.max(1);
+    }
+    found
 }
 
 /// One side of the Kaiser-windowed sinc, with two zeros behind its end.

@@ -86,6 +86,7 @@ fn read_run(store: &dyn Reader, folder: Option<&Path>, limits: &Limits, outcome:
         channels: Vec::new(),
         resolution: 0.5,
         max_order: 4.0,
+        max_order_is_default: false,
         overlap: 0.5,
         window: WindowKind::Hann,
         cuts: vec![1.0],

@@ -189,6 +189,8 @@ pub struct OrderStudy {
     /// Order resolution; the window holds 1/resolution revolutions.
     pub resolution: f64,
     pub max_order: f64,
+    /// Whether `max_order` may be lowered to what the sampling rate allows at the highest speed.
+    pub max_order_is_default: bool,
     pub overlap: f64,
     pub window: WindowKind,
     /// Orders of the order cuts (order tracking): level over rpm.

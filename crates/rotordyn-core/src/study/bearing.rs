@@ -13,14 +13,14 @@ use crate::analysis::equilibrium::{CageTreatment, equilibrium};
 use crate::assembly::PhysicsError;
 use crate::document::TO_RPM;
 use crate::model::study::{BearingStudy, DOF_NAMES, SweepDirection, SweepVariable};
-use crate::results::{BearingPoint, BearingResult, BearingSweepResult};
+use crate::results::{BallState, BearingPoint, BearingResult, BearingSweepResult};
 use crate::warning::{Code, Warning};
 use operating_point::{OperatingPoint, SingleBearingStudy, cage_treatment};
 use rotordyn_bearing::contact::{BallContacts, ContactLaw};
 use rotordyn_bearing::free_ball::FreeBallBearing;
 use rotordyn_bearing::rating::LoadRating;
 use rotordyn_bearing::rating::limit_checks::{GREASE_SPEED_PARAMETER, speed_limit, speed_parameter};
-use rotordyn_bearing::{Arrangement, BallBearing, Preload, PreloadState, kinematics};
+use rotordyn_bearing::{Arrangement, BallBearing, CharacteristicOrders, Preload, PreloadState, kinematics};
 use std::ops::ControlFlow;
 
 /// Points of a sweep over a default range.
@@ -367,6 +367,19 @@ impl<'a> SingleBearingStudy<'a> {
         self.solver.element.preload_state(speed)
     }
 
+    /// Orders under load; that of a ball with inertia is its own speed, load-weighted: where the contact angles of the races
+    /// differ it turns about an axis that follows from neither of them.
+    fn loaded_orders(&self, state: &BearingEquilibrium, balls: &[BallState]) -> CharacteristicOrders {
+        let orders = self.bearing.loaded_orders(state.mean_cos);
+        let speed = state.condition.speed;
+        let load: f64 = balls.iter().map(|ball| ball.outer.load).sum();
+        if !self.bearing.inertia.is_on() || speed == 0.0 || load <= 0.0 {
+            return orders;
+        }
+        let turned: f64 = balls.iter().map(|ball| ball.outer.load * ball.motion.ball_speed.abs()).sum();
+        CharacteristicOrders { bsf: turned / (load * speed.abs()), ..orders }
+    }
+
     /// Contacts, stiffness, orders and life at an equilibrium.
     fn point(&self, state: BearingEquilibrium) -> BearingPoint {
         let speed = state.condition.speed;
@@ -384,7 +397,7 @@ impl<'a> SingleBearingStudy<'a> {
         let mut point = BearingPoint {
             radial_stiffness: both(&along),
             axial_stiffness: both(&axis),
-            orders: self.bearing.loaded_orders(state.mean_cos),
+            orders: self.loaded_orders(&state, &balls),
             preload_force: self.preload(state.condition.speed).axial_force,
             life: self.rating.life(&state, &loads),
             film_ratio: 0.0,

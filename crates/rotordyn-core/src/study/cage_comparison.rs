@@ -25,6 +25,7 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use super::cage_turns::CageTurns;
 use super::step_error::line_level;
 use super::{Machine, Recorder, StudyError};
 use crate::model::run_channels::interval_mean;
@@ -109,6 +110,10 @@ impl Machine {
 
         let cages = free.iter().map(|site| self.cage_speed(*site, history, rolling, stretch));
         let cages = cages.collect::<Result<Vec<CageSpeed>, SeriesError>>()?;
+        let [free_turns, rolling_turns] = [
+            CageTurns::of(self, history, first..end + 1)?.ratios(),
+            CageTurns::of(self, rolling, first..end + 1)?.ratios(),
+        ];
         let mut lines = Vec::new();
         let offset = LINES_BESIDE / revolutions;
         let samples_per_revolution = (end - first) as f64 / revolutions;
@@ -123,8 +128,15 @@ impl Machine {
             };
             let kinematic = [stretch_of(rolling)?, stretch_of(driven)?, stretch_of(spaced)?];
             for order in self.checked_orders() {
-                let cage = cages.iter().find(|cage| (cage.rolling_bpfo - order).abs() < 1e-6);
-                let order_of_run = cage.map_or(order, |cage| cage.bpfo);
+                // That of the first bearing that has it.
+                let line_with = |turns: &[Option<f64>]| {
+                    self.order_lines_of_cages(&[order], turns, f64::INFINITY).into_iter().next()
+                };
+                let (Some(of_run), Some(of_rolling)) = (line_with(&free_turns), line_with(&rolling_turns))
+                else {
+                    continue;
+                };
+                let (order_of_run, order) = (of_run.line.order, of_rolling.line.order);
                 if order * revolutions < FEWEST_CYCLES {
                     continue;
                 }
@@ -134,16 +146,16 @@ impl Machine {
                 let x = std::f64::consts::PI * order_of_run / samples_per_revolution;
                 let free_level = |order: f64| line_level(angle, &means, order) * x / x.sin();
                 let noise = [-offset, offset].map(|offset| free_level(order_of_run + offset));
-                lines.extend(self.order_lines(&[order]).into_iter().map(|line| CageLine {
+                lines.push(CageLine {
                     channel: own.name.clone(),
                     unit: own.unit.clone(),
-                    line,
+                    line: of_run.line,
                     free: free_level(order_of_run),
                     rolling: level(0, order),
                     driven: level(1, order_of_run),
                     spaced: level(2, order_of_run),
                     noise: 0.5 * (noise[0] + noise[1]),
-                }));
+                });
             }
         }
         let time_at = |index: usize| Ok::<_, SeriesError>(history.time.at(index)?.unwrap_or(f64::NAN));
@@ -187,7 +199,7 @@ impl Machine {
             order,
             rolling_order,
             bpfo: balls * order,
-            rolling_bpfo: site.bearing.characteristic_orders().map_or(balls * rolling_order, |c| c.bpfo),
+            rolling_bpfo: balls * rolling_order,
             largest_slip: largest(within("cage_slip")?),
             pocket_force: largest(within("pocket_force")?),
             friction_torque: mean(within("friction_torque")?),

@@ -8,8 +8,9 @@ use super::order_tracking::is_selected;
 use super::{Machine, Recorder, StudyError};
 use crate::model::Model;
 use crate::model::study::{OrderStudy, RunUpStudy};
-use crate::results::{CagePhaseBand, CagePhaseChannel, CagePhaseLine, OrderResult};
+use crate::results::{CagePhaseBand, CagePhaseChannel, CagePhaseLine, OrderLine, OrderResult};
 use crate::transient::run::End;
+use rotordyn_signal::order::OrderCut;
 
 impl Machine {
     /// Range of the order cuts over `study.cage_phases` initial cage phases; `base` are the cuts of the model's own.
@@ -51,11 +52,10 @@ impl Machine {
             lines: result
                 .cuts
                 .iter()
-                .enumerate()
-                .map(|(k, (line, cut))| {
-                    let levels: Vec<&[f64]> = std::iter::once(cut.rms.as_slice())
-                        .chain(runs.iter().map(|run| run[c].cuts[k].1.rms.as_slice()))
-                        .collect();
+                .map(|(line, cut)| {
+                    // Lines of bearings may part in one run and not in another: that of the nearest order.
+                    let of_runs = runs.iter().map(|run| nearest_cut(&run[c].cuts, line.order));
+                    let levels: Vec<&[f64]> = std::iter::once(cut.rms.as_slice()).chain(of_runs).collect();
                     let over = |pick: fn(f64, f64) -> f64, start: f64| -> Vec<f64> {
                         (0..cut.rms.len()).map(|at| levels.iter().map(|l| l[at]).fold(start, pick)).collect()
                     };
@@ -119,4 +119,11 @@ fn turned_bearings(model: &Model) -> Vec<usize> {
         [_, others @ ..] if !others.is_empty() => others.to_vec(),
         _ => with_cage,
     }
+}
+
+/// Levels of the cut whose order is nearest.
+fn nearest_cut(cuts: &[(OrderLine, OrderCut)], order: f64) -> &[f64] {
+    let distance = |cut: &&(OrderLine, OrderCut)| (cut.0.order - order).abs();
+    let nearest = cuts.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    nearest.map_or(&[], |(_, cut)| cut.rms.as_slice())
 }

@@ -7,6 +7,7 @@ mod bearing_motion;
 mod bifurcation;
 mod cage_comparison;
 mod cage_phases;
+mod cage_turns;
 mod case_comparison;
 mod critical_map;
 mod ehl_film;

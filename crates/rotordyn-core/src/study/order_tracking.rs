@@ -1,8 +1,10 @@
 //! Spectrograms and order tracking of a recorded run.
 
+use super::cage_turns::CageTurns;
+use super::order_lines::LineOfRun;
 use super::{Machine, StudyError};
 use crate::model::study::{OrderStudy, SpectrogramStudy};
-use crate::results::{History, HistoryChannel, OrderResult, SpectrogramPeak, SpectrogramResult};
+use crate::results::{History, HistoryChannel, OrderLine, OrderResult, SpectrogramPeak, SpectrogramResult};
 use crate::series::{Keep, Series, SeriesError};
 use rotordyn_signal::SignalError;
 use rotordyn_signal::order::{OrderSettings, OrderTracker};
@@ -12,6 +14,13 @@ use rotordyn_signal::stft::{Spectrogram, Stft, StftSettings};
 /// Half width of an order cut's band in bins: a line of Hann that slips by half a bin keeps its level in three bins to 1 %,
 /// and at a resolution of 0.05 they separate 7x from 2 BPFO = 7.14x.
 pub(super) const CUT_HALF_WIDTH: f64 = 1.0;
+/// Lines of bearings with the same name are apart from this part of a bin on, and on a map from this part of its highest order.
+const APART_BINS: f64 = 0.5;
+const SHOWN_APART: f64 = 2e-3;
+/// Part of the highest order that a sampling rate allows, as lowered by default.
+const ALLOWED_SHARE: f64 = 0.99;
+/// Part of a window's turns that its Hann weights count most.
+const WEIGHTED_SHARE: f64 = 0.5;
 /// Most samples of channels that are resampled together (16 MB, and as many over the angle).
 const GROUP_VALUES: usize = 1 << 21;
 
@@ -44,7 +53,9 @@ impl Machine {
         let length = (study.length * rate).round() as usize;
         let settings = StftSettings::new(study.window, length, study.overlap)?;
         let mut stft = Stft::new(settings, rate)?;
-        let orders = self.order_lines(&study.orders);
+        let cages = CageTurns::of(self, history, 0..history.angle.len())?.ratios();
+        let lines = self.order_lines_of_cages(&study.orders, &cages, SHOWN_APART * highest(&study.orders));
+        let orders: Vec<OrderLine> = lines.into_iter().map(|found| found.line).collect();
         let speed_of_run = history.speed.all()?;
         let mut found = Vec::new();
         for channel in selected_channels(&study.channels, history) {
@@ -82,14 +93,48 @@ impl Machine {
         history: &History,
         keep: Keep,
     ) -> Result<Vec<OrderResult>, StudyError> {
-        let settings = OrderSettings {
-            overlap: study.overlap,
-            window: study.window,
-            ..OrderSettings::new(study.resolution, study.max_order)
-        };
+        self.orders_of_lines(study, &self.cut_lines(study, history)?, history, keep)
+    }
+
+    /// Lines of the order cuts with the orders that they have in a run.
+    pub(super) fn cut_lines(
+        &self,
+        study: &OrderStudy,
+        history: &History,
+    ) -> Result<Vec<LineOfRun>, StudyError> {
+        let cages = CageTurns::of(self, history, 0..history.angle.len())?.ratios();
+        Ok(self.order_lines_of_cages(&study.cuts, &cages, APART_BINS * study.resolution))
+    }
+
+    /// [`Self::orders_kept`] with these lines instead of the cuts of the study.
+    pub(super) fn orders_of_lines(
+        &self,
+        study: &OrderStudy,
+        lines: &[LineOfRun],
+        history: &History,
+        keep: Keep,
+    ) -> Result<Vec<OrderResult>, StudyError> {
+        let turns = CageTurns::of(self, history, 0..history.angle.len())?;
+        let orders: Vec<f64> = lines.iter().map(|found| found.line.order).collect();
         let theta = history.angle.all()?;
-        let mut tracker = OrderTracker::new(&theta, history.sample_rate, settings)?;
-        let lines = self.order_lines(&study.cuts);
+        let tracker = |max_order: f64| {
+            let settings = OrderSettings {
+                overlap: study.overlap,
+                window: study.window,
+                ..OrderSettings::new(study.resolution, max_order)
+            };
+            OrderTracker::new(&theta, history.sample_rate, settings)
+        };
+        let (wanted, least) = (study.max_order.max(highest(&orders)), highest(&orders) + study.resolution);
+        let mut tracker = match tracker(wanted) {
+            // Of a torque drive the highest speed is not known before the run.
+            Err(SignalError::RateTooLow { given, needed, .. })
+                if study.max_order_is_default && wanted * given / needed > least =>
+            {
+                tracker(ALLOWED_SHARE * wanted * given / needed)?
+            }
+            found => found?,
+        };
         let mut found = Vec::new();
         let channels: Vec<_> = selected_channels(&study.channels, history).collect();
         // The kernel of the resampling is evaluated once for all channels of a group.
@@ -100,13 +145,24 @@ impl Machine {
             let over_angle = tracker.resample(&records.iter().map(Vec::as_slice).collect::<Vec<_>>())?;
             for ((channel, record), over_angle) in group.iter().zip(&records).zip(&over_angle) {
                 let mut spectrogram = tracker.spectrogram(over_angle);
-                let cut = |line: &crate::results::OrderLine| {
-                    let cut = spectrogram.cut(line.order, CUT_HALF_WIDTH * study.resolution)?;
-                    Ok((line.clone(), cut))
+                let half_width = CUT_HALF_WIDTH * study.resolution;
+                let cut = |found: &LineOfRun| {
+                    let line = &found.line;
+                    let Some(of) = &found.of else {
+                        return Ok((line.clone(), spectrogram.cut(line.order, half_width)?));
+                    };
+                    // The cage's turns change with speed and load.
+                    let bearing = &self.model.bearings[of.site].bearing;
+                    let order_at = |time: &f64| {
+                        let sample = (time * history.sample_rate).round() as usize;
+                        let cage = turns.ratio_about(of.site, sample, WEIGHTED_SHARE / study.resolution);
+                        cage.map_or(line.order, |cage| of.at(cage, bearing)).min(highest(&spectrogram.orders))
+                    };
+                    let orders: Vec<f64> = spectrogram.times.iter().map(order_at).collect();
+                    Ok((line.clone(), spectrogram.cut_along(line.order, &orders, half_width)?))
                 };
                 let cuts = lines.iter().map(cut).collect::<Result<Vec<_>, SignalError>>()?;
                 spectrogram.smeared = tracker.smeared(over_angle, cuts.iter().map(|(_, cut)| cut));
-                let orders: Vec<f64> = lines.iter().map(|line| line.order).collect();
                 let tracks = study
                     .bandwidth
                     .map(|width| order_tracks(record, &theta, history.sample_rate, &orders, width));
@@ -121,6 +177,11 @@ impl Machine {
         }
         Ok(found)
     }
+}
+
+/// The highest order, or 0.
+fn highest(orders: &[f64]) -> f64 {
+    orders.iter().copied().fold(0.0, f64::max)
 }
 
 /// The highest amplitude of a spectrogram.

@@ -141,7 +141,9 @@ impl Machine {
         let mut tracked = Vec::new();
         for run in runs {
             maps.push(self.spectrograms(&spectra, run)?);
-            tracked.push(self.orders(&orders, run)?);
+            // The measured run has no record of the cages: they are taken to turn as the computed ones.
+            let lines = self.cut_lines(&orders, computed)?;
+            tracked.push(self.orders_of_lines(&orders, &lines, run, &mut |amplitude| Ok(amplitude.into()))?);
         }
         let mut pairs = Vec::new();
         for channel in &runs[0].channels {

@@ -12,12 +12,13 @@ use std::ops::{ControlFlow, Range};
 use serde::{Deserialize, Serialize};
 
 use super::Machine;
+use super::cage_turns::CageTurns;
 use super::order_tracking::is_selected;
 use super::probe_filter::ProbeFilter;
 use super::strongest_orders::strongest_orders;
 use crate::model::Quantity;
 use crate::model::study::{Integrator, RunUpStudy};
-use crate::results::{History, HistoryChannel, StepError, StepErrorLine};
+use crate::results::{History, HistoryChannel, OrderLine, StepError, StepErrorLine};
 use crate::series::SeriesError;
 use crate::transient::reduction::Reduction;
 use crate::transient::run::{End, Report, Sample, Settings, run};
@@ -123,21 +124,21 @@ impl Machine {
         let stretch_angle = history.angle.read(first..end + 1)?;
         let turned = stretch_angle[end - first] - stretch_angle[0];
         let revolutions = turned.abs() / TAU;
-        let mut orders: Vec<f64> =
-            orders.iter().copied().filter(|order| order * revolutions >= FEWEST_CYCLES).collect();
+        let cages = CageTurns::of(self, history, first..end + 1)?.ratios();
+        let named = self.order_lines_of_cages(orders, &cages, 0.5 / revolutions.max(1.0));
+        let mut named: Vec<OrderLine> = named.into_iter().map(|found| found.line).collect();
+        let is_long_enough = |line: &OrderLine| line.order * revolutions >= FEWEST_CYCLES;
+        named.retain(is_long_enough);
         let channels = &history.channels[..probes];
         let shown = self.shown_channels(channels);
         if self.model.studies.orders.is_none() {
-            orders.extend(self.strongest_orders(
-                &stretch_angle,
-                &orders,
-                channels,
-                &shown,
-                first..end + 1,
-            )?);
-            orders.retain(|order| order * revolutions >= FEWEST_CYCLES);
+            let known: Vec<f64> = named.iter().map(|line| line.order).collect();
+            let strongest =
+                self.strongest_orders(&stretch_angle, &known, channels, &shown, first..end + 1)?;
+            named.extend(self.order_lines(&strongest));
+            named.retain(is_long_enough);
         }
-        if orders.is_empty() {
+        if named.is_empty() {
             return Ok(None);
         }
 
@@ -186,7 +187,7 @@ impl Machine {
         };
         let levels = |angle: &[f64], records: &[Vec<f64>]| -> Vec<Vec<f64>> {
             let window = AngleWindow::new(angle);
-            orders.iter().map(|order| window.line_levels(records, *order)).collect()
+            named.iter().map(|line| window.line_levels(records, line.order)).collect()
         };
         let (own_levels, other_levels) = (levels(&own_angle, &records), levels(&angle, &values));
         let mean_speed = turned.abs() / (time_end - time_first);
@@ -199,15 +200,14 @@ impl Machine {
             }
             let largest = own_levels.iter().map(|levels| levels[k]).fold(0.0, f64::max);
             let least = (SMALLEST_SHARE * largest).max(SMALLEST_SHARE_OF_VIBRATION * vibration);
-            let named = self.order_lines(&orders).into_iter();
-            for (line, (own, other)) in named.zip(own_levels.iter().zip(&other_levels)) {
+            for (line, (own, other)) in named.iter().zip(own_levels.iter().zip(&other_levels)) {
                 let (level, other_level) = (own[k], other[k]);
                 let rate =
                     (line.order * mean_speed).powi(derivatives(reduction.system.channels.list()[k].quantity));
                 if level > least.max((ROUND_OFF * displacement).max(SMALLEST_MOTION) * rate) {
                     let error = (other_level - level) / level * factor;
                     let channel = channel.name.clone();
-                    lines.push(StepErrorLine { channel, line, level, other_level, error });
+                    lines.push(StepErrorLine { channel, line: line.clone(), level, other_level, error });
                 }
             }
         }

@@ -146,6 +146,7 @@ pub(super) fn orders_of_run(r: &Reader, model: &Model) -> (OrderStudy, bool) {
         channels: channels(r, &WINDOW.channels, model),
         resolution: r.or(&ORDERS.resolution, declared_default(&ORDERS.resolution)),
         max_order,
+        max_order_is_default: !r.has(highest),
         overlap: r.value(&WINDOW.overlap),
         window: r.word(&WINDOW.window),
         cuts,

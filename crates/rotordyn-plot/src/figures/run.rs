@@ -39,8 +39,9 @@ pub fn histories(history: &results::History, machine: &Machine) -> Vec<Named> {
     };
     let mut figures = Vec::new();
     for c in &history.channels {
-        // The centre of a cage is drawn as an orbit.
-        if machine.model.bearings.iter().any(|site| site.name == c.station) && c.unit == "m" {
+        // The centre of a cage, which no probe measures, is drawn as an orbit.
+        let is_probe = machine.model.probes.iter().any(|probe| probe.name == c.name);
+        if !is_probe && machine.model.bearings.iter().any(|site| site.name == c.station) && c.unit == "m" {
             continue;
         }
         if ["displacement", "velocity", "acceleration"].contains(&c.quantity.as_str()) {
@@ -156,6 +157,7 @@ pub(super) fn spectrograms(
     let panel = |(run, rpm): (&SpectraOfRun, &Vec<f64>)| SpectrogramPanel {
         name: run.name.into(),
         rpm: rpm.clone(),
+        time: run.found.spectrogram.times.clone(),
         hz: run.found.spectrogram.frequencies.clone(),
         level_db: decibels_of(&run.found.spectrogram.amplitude, shown),
         orders: order_lines(&run.found.orders),
@@ -211,6 +213,7 @@ pub fn orders(found: &OrderResult, phases: Option<&CagePhaseBand>, machine: &Mac
         title: format!("Order map of the run-up, {}", found.channel),
         note: note.clone(),
         rpm: s.rpm.clone(),
+        time: s.times.clone(),
         order: s.orders.clone(),
         level_db: decibels_of(&s.amplitude, shown),
         quantity: format!("{} level", quantity(&found.unit)),

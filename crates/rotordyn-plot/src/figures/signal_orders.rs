@@ -145,6 +145,7 @@ fn orders(r: &SignalResult, found: &ShaftOrders, note: &str) -> OrderMap {
         title: format!("Order map of {}", r.channel),
         note: note.into(),
         rpm: found.map.rpm.clone(),
+        time: found.map.times.clone(),
         order: found.map.orders.clone(),
         level_db: level_db.into(),
         quantity: format!("{} level", quantity_name(r)),

@@ -43,6 +43,30 @@ fn orders_in_the_pass_band_are_kept() {
     }
 }
 
+/// A shaft that slows down, reverses and speeds up the other way: both stretches are kept, in their sequence.
+#[test]
+fn both_senses_of_rotation_are_kept() {
+    let turns = |t: f64| 20.0 * t - 2.0 * t * t - 1.0;
+    for sign in [1.0, -1.0] {
+        let theta = sampled(50_000, RATE, |t| sign * TAU * turns(t));
+        let x = sampled(50_000, RATE, |t| (TAU * 3.0 * turns(t) + 0.4).cos());
+        let resampler = AngleResampler::new(&theta, RATE, 64, 0.05).unwrap();
+        let [ahead, back] = resampler.parts() else { panic!("{} parts", resampler.parts().len()) };
+        assert!(
+            ahead.times.last().unwrap() < &5.0 && back.times[0] > 5.0 && back.times.last().unwrap() > &9.9
+        );
+        let out = resampler.resample(&[&x]).unwrap();
+        for (part, channels) in resampler.parts().iter().zip(&out) {
+            for (time, y) in part.times.iter().zip(&channels[0]).skip(ENDS).take(part.times.len() - 2 * ENDS)
+            {
+                assert!((y - (TAU * 3.0 * turns(*time) + 0.4).cos()).abs() < 1e-3, "{time}");
+            }
+        }
+        let stands: Vec<_> = resampler.skipped().iter().map(|s| s.reason).collect();
+        assert_eq!(stands, [SkipReason::Standstill]);
+    }
+}
+
 /// Orders above S/2 do not come back folded: 40x at 64 a revolution would fold to 24x.
 #[test]
 fn orders_above_nyquist_are_suppressed() {
