@@ -43,6 +43,11 @@ const INPUT: &[Case] = &[
         };
         models(&of("1 m"), &of("9 m"))
     }),
+    (Code::Gravity, || {
+        let mut upwards = machine("two_discs_soft");
+        upwards.gravity = "-9.81 m/s^2";
+        models(&machine("two_discs_soft").text(), &upwards.text())
+    }),
     (Code::OverlappingDiscs, || {
         let mut two = machine("two_discs_soft");
         two.discs[1].1 = two.discs[0].1 + 12.0;

@@ -223,6 +223,43 @@ fn a_disc_of_absurd_size_is_no_missing_support() {
     assert!(!error.contains("unconstrained") && error.contains("disc.") && error.contains("Hz"), "{error}");
 }
 
+/// Inertias in kg mm^2 beside a mass, and gravity in mm/s^2 or on a shaft that is vertical the other way.
+#[test]
+fn inertias_and_gravity_in_wrong_units_are_named() {
+    let codes = |gravity: &str, polar: &str, diametral: &str| {
+        let text = format!(
+            r#"
+            model = {{ name = "m", gravity = "{gravity}" }}
+            material.steel = {{ young = "207 GPa", poisson = 0.3, density = "7850 kg/m^3" }}
+            station = {{ A = "0 mm", fan = "200 mm", B = "400 mm" }}
+            shaft = {{ element_length = "20 mm", section = [{{ length = "400 mm", outer_diameter = "25 mm" }}] }}
+            disc.fan = {{ station = "fan", mass = "5 kg", polar_inertia = "{polar}", diametral_inertia = "{diametral}" }}
+            bearing.A = {{ model = "ball", station = "A", designation = "6205" }}
+            bearing.B = {{ model = "ball", station = "B", designation = "6205" }}
+            drive = {{ kind = "prescribed", station = "A" }}
+        "#
+        );
+        let loaded = rotordyn::model::load("m.toml", text, &Default::default()).unwrap();
+        let warnings = loaded.warnings.iter().filter_map(|d| d.to_warning());
+        warnings.map(|w| w.code.name().to_string()).collect::<Vec<_>>()
+    };
+    let [polar, diametral] = ["0.05 kg m^2", "0.03 kg m^2"];
+    let none: [&str; 0] = [];
+    for gravity in ["9.81 m/s^2", "0 m/s^2", "1.62 m/s^2", "0, 0, -9.81 m/s^2", "-9.81, 0, 0 m/s^2"] {
+        assert_eq!(codes(gravity, polar, diametral), none, "{gravity}");
+    }
+    for gravity in ["9810 m/s^2", "0, 0, -0.00981 m/s^2", "-9.81 m/s^2", "0, 9.81, 0 m/s^2"] {
+        assert_eq!(codes(gravity, polar, diametral), ["gravity"], "{gravity}");
+    }
+    for (polar, diametral) in
+        [("5e4 kg m^2", "3e4 kg m^2"), ("5e-8 kg m^2", "3e-8 kg m^2"), (polar, "3e-8 kg m^2")]
+    {
+        assert_eq!(codes("9.81 m/s^2", polar, diametral), ["disc-size"], "{polar} {diametral}");
+    }
+    // A point mass is stated by zeros.
+    assert_eq!(codes("9.81 m/s^2", "0 kg m^2", "0 kg m^2"), none);
+}
+
 /// Damping of 1e-6 of the critical one: a peak of no meaning.
 #[test]
 fn a_response_with_hardly_any_damping() {

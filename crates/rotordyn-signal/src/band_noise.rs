@@ -78,6 +78,11 @@ impl BandNoise {
         })
     }
 
+    /// Upper frequency of the band \[Hz\].
+    pub fn highest_frequency(&self) -> f64 {
+        0.5 * self.centre / PI + self.rate / RATE
+    }
+
     /// Value at a time \[s\].
     pub fn at(&self, time: f64) -> f64 {
         // A panic elsewhere leaves the numbers whole: they are replaced at once.

@@ -58,8 +58,12 @@ codes! {
         "check the units of the diameters, or the diameter of the section under it";
     DiscSize, "disc-size", Serious,
         "A disc by dimensions is larger than the machine: a diameter of more than five, or a thickness of more than two lengths \
-         of the shaft. Its inertia makes modes at almost 0 Hz.",
-        "check the unit of diameter and thickness";
+         of the shaft; or an inertia beside a mass is that of a ring so large, or of one far thinner than the shaft. Its inertia \
+         makes modes at almost 0 Hz.",
+        "check the unit of diameter and thickness, or of the inertia";
+    Gravity, "gravity", Caution,
+        "The acceleration of gravity is far from that of the earth, or points along +y.",
+        "check its unit and sign: one value is downwards, along -y; 0 m/s^2 is without gravity";
     OverlappingDiscs, "overlapping-discs", Serious,
         "Two discs of stated width occupy the same length of the shaft: usually one disc given twice.",
         "check stations and widths, or state one disc with the sum of both masses";

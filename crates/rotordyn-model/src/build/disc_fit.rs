@@ -14,6 +14,9 @@ const OUTER_RATIO: f64 = 0.98;
 /// Diameter and thickness of a disc over the length of the shaft, beyond which a unit is wrong.
 const LARGEST_DIAMETER: f64 = 5.0;
 const LARGEST_THICKNESS: f64 = 2.0;
+/// Diameter of a ring with a disc's inertia over that of the shaft in it, below which a unit is wrong: a coupling half on a
+/// stub has 0.5.
+const SMALLEST_RING: f64 = 0.02;
 
 /// Warns of discs by dimensions whose bore or outer diameter cannot be those of a part on the shaft, and of discs far larger
 /// than the machine.
@@ -21,6 +24,7 @@ pub(super) fn check(top: &Reader, model: &Model) {
     for disc in &model.discs {
         let Some(r) = top.item(&TOP.disc, &disc.name) else { continue };
         if r.has(&DISC.mass) {
+            gyration(top, model, disc, &r);
             continue;
         }
         fit(top, model, disc, &r);
@@ -63,11 +67,8 @@ fn fit(top: &Reader, model: &Model, disc: &Disc, r: &Reader) {
 }
 
 fn size(top: &Reader, model: &Model, disc: &Disc, r: &Reader) {
-    let extent = match (model.node_z.first(), model.node_z.last()) {
-        (Some(first), Some(last)) => last - first,
-        _ => 0.0,
-    };
-    if extent <= 0.0 || model.shaft.is_empty() {
+    let extent = shaft_length(model);
+    if extent <= 0.0 {
         return;
     }
     let (key, what, value) = if disc.outer_diameter > LARGEST_DIAMETER * extent {
@@ -83,6 +84,42 @@ fn size(top: &Reader, model: &Model, disc: &Disc, r: &Reader) {
     );
     let problem = Problem::new(Kind::OutOfRange, &r.span_of(key), message).hint("check the unit");
     top.log.warn(Code::DiscSize, format!("disc.{}", disc.name), problem);
+}
+
+/// Warns of inertias that no part of the disc's mass has on this machine: those of a ring of the diameter 2 √(I/m) far larger
+/// than the shaft is long, or far thinner than the shaft.
+fn gyration(top: &Reader, model: &Model, disc: &Disc, r: &Reader) {
+    let extent = shaft_length(model);
+    if extent <= 0.0 || disc.mass <= 0.0 {
+        return;
+    }
+    let thinnest = diameters_at(model, disc.node).into_iter().fold(f64::INFINITY, f64::min);
+    let inertias =
+        [(&DISC.polar_inertia, disc.polar_inertia), (&DISC.diametral_inertia, disc.diametral_inertia)];
+    for (key, inertia) in inertias.into_iter().filter(|(_, inertia)| *inertia > 0.0) {
+        let diameter = 2.0 * (inertia / disc.mass).sqrt();
+        let is_thin = thinnest.is_finite() && diameter < SMALLEST_RING * thinnest;
+        if diameter <= LARGEST_DIAMETER * extent && !is_thin {
+            continue;
+        }
+        let message = format!(
+            "{} is that of a ring of {} kg with a diameter of {diameter:.3e} m, on a shaft of {extent:.4} m length",
+            r.name(key),
+            disc.mass
+        );
+        let problem = Problem::new(Kind::OutOfRange, &r.span_of(key), message)
+            .hint("check the unit: kg m^2, or kg mm^2");
+        top.log.warn(Code::DiscSize, format!("disc.{}", disc.name), problem);
+        return;
+    }
+}
+
+/// Length of the shaft \[m\]; 0 without one.
+fn shaft_length(model: &Model) -> f64 {
+    match (model.node_z.first(), model.node_z.last()) {
+        (Some(first), Some(last)) if !model.shaft.is_empty() => last - first,
+        _ => 0.0,
+    }
 }
 
 /// Diameters of the shaft with its layers on both sides of a node.

@@ -59,7 +59,7 @@ keys! {
         factor: Quantities = quantities(any(NUMBER), "as many as time",
             "Factor of the load at these times; the first holds from the start of the run, the last to its end: 0 where there is no load.")
             .required("with time").with("time = \"0, 0.1 s\"").example("[0, 1]");
-        band: Quantities = quantities(not_negative(FREQUENCY), "two, increasing", "Frequencies between which the spectrum of a random load is flat; force and moment are its RMS values.")
+        band: Quantities = quantities(not_negative(FREQUENCY), "two, increasing", "A random load: flat spectrum from 5 % of the width inside these frequencies, -6 dB at them; force and moment: RMS.")
             .optional().example("\"5, 500 Hz\"");
         seed: Count = count([0, 999_999_999], "Random course of a load with a band: the same for equal seeds.")
             .computed("one of its own, from the load's name").with("band = \"5, 500 Hz\"");

@@ -55,6 +55,7 @@ use material::material;
 use places::Places;
 use rotordyn_bearing::Bearing;
 use rotordyn_core::element::Material;
+use rotordyn_core::warning::Code;
 use rotordyn_units::names::folder_problem;
 use rotordyn_units::{ACCELERATION, DENSITY, NUMBER, PRESSURE};
 
@@ -243,8 +244,29 @@ fn model_header(top: &Reader) -> (String, String, [f64; 3]) {
             [0.0; 3]
         }
     };
+    check_gravity(&r, gravity);
     r.finish();
     (name, title, gravity)
+}
+
+/// Magnitudes of an acceleration of gravity \[m/s²\]: from a tenth of that of the moon to five times that of the earth.
+const GRAVITY: [f64; 2] = [0.16, 50.0];
+
+/// Warns of a gravity that is rarely meant.
+fn check_gravity(r: &Reader, gravity: [f64; 3]) {
+    let [x, y, z] = gravity;
+    let size = x.hypot(y).hypot(z);
+    let [least, greatest] = GRAVITY;
+    let message = if size > 0.0 && !(least..=greatest).contains(&size) {
+        format!("{} is {size:.4} m/s^2: on the earth it is 9.81 m/s^2", r.name(&HEADER.gravity))
+    } else if y > 0.5 * size && size > 0.0 {
+        format!("{} points upwards, along +y", r.name(&HEADER.gravity))
+    } else {
+        return;
+    };
+    let hint = "one value is downwards, along -y; three are its components along x, y and z";
+    let problem = Problem::new(Kind::OutOfRange, &r.span_of(&HEADER.gravity), message).hint(hint);
+    r.log.warn(Code::Gravity, "model.gravity", problem);
 }
 
 fn materials(top: &Reader) -> Vec<Material> {

@@ -5,7 +5,8 @@ use crate::file::key::{Key, Quantity, Texts, Words, keys, positive, quantity, wi
 use crate::file::quantities::declared_default;
 use crate::file::reader::Reader;
 use crate::study::Integrator;
-use crate::{Drive, Model};
+use crate::{Drive, Load, LoadFactor, Model};
+use rotordyn_core::warning::Code;
 use rotordyn_units::{LENGTH, NUMBER, TIME};
 use std::f64::consts::TAU;
 
@@ -42,7 +43,7 @@ keys! {
     pub(super) static RUN_STEP: StepKeys {
         step: Quantity = quantity(positive(TIME), "Greatest time step; the step used divides the sampling interval; of dormand-prince the first; free balls divide it further.")
             .computed("100 us, less at high speed: a 90th of the period of the highest ball pass at the outer race, order cut or \
-                       2x, in two digits").example("\"100 us\"");
+                       2x, and a tenth of that of the highest frequency of a random load, in two digits").example("\"100 us\"");
     }
 }
 
@@ -50,6 +51,11 @@ keys! {
 const LARGEST_STEP_US: f64 = 100.0;
 /// Steps in a period of the highest order line that is looked at.
 const STEPS_PER_PERIOD: f64 = 90.0;
+
+/// Steps in a period of the highest frequency of a random load: by default, by which steps of second order give a motion
+/// 3 % off, and at least, where it is 20 % off.
+const STEPS_PER_LOAD_PERIOD: f64 = 10.0;
+const FEWEST_PER_LOAD_PERIOD: f64 = 4.0;
 
 /// Steps in which a ball passes over a local defect at the highest speed.
 const STEPS_ON_DEFECT: f64 = 40.0;
@@ -63,7 +69,40 @@ pub(super) fn default_step_us(model: &Model, cuts: &[f64], speed: f64) -> f64 {
     let balls = model.bearings.iter().filter_map(|site| site.bearing.characteristic_orders());
     let passes = balls.map(|orders| orders.bpfo);
     let highest = passes.chain(cuts.iter().copied()).fold(2.0, f64::max);
-    in_two_digits(1e6 * TAU / (STEPS_PER_PERIOD * highest * speed)).min(LARGEST_STEP_US)
+    let of_load =
+        fastest_load(model).map_or(f64::INFINITY, |(_, highest)| 1.0 / (STEPS_PER_LOAD_PERIOD * highest));
+    in_two_digits(1e6 * (TAU / (STEPS_PER_PERIOD * highest * speed)).min(of_load)).min(LARGEST_STEP_US)
+}
+
+/// The random load of the highest frequency \[Hz\].
+fn fastest_load(model: &Model) -> Option<(&Load, f64)> {
+    let random = model.loads.iter().filter_map(|load| match &load.factor {
+        LoadFactor::Random(noise) => Some((load, noise.highest_frequency())),
+        LoadFactor::Constant | LoadFactor::Table(_) => None,
+    });
+    random.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Warns of a given step \[s\] that does not resolve a random load: what it has above half the rate of the steps folds down.
+pub(super) fn check_step_of_loads(r: &Reader, model: &Model, step: f64) {
+    let Some((load, highest)) =
+        fastest_load(model).filter(|(_, highest)| step * FEWEST_PER_LOAD_PERIOD * highest > 1.0)
+    else {
+        return;
+    };
+    let message = format!(
+        "a step of {} us is {:.1} to a period of load.{} at {highest:.0} Hz, the end of its band: its force is not that spectrum",
+        1e6 * step,
+        1.0 / (step * highest),
+        load.name
+    );
+    let largest = in_two_digits(1e6 / (STEPS_PER_LOAD_PERIOD * highest));
+    let problem = Problem::new(Kind::OutOfRange, &r.span_of(&RUN_STEP.step), message);
+    r.log.warn(
+        Code::TimeStep,
+        "study.run_up",
+        problem.hint(format!("step = \"{largest} us\", or a narrower band")),
+    );
 }
 
 /// Step on a local defect of a run without one \[us\], in two digits; `None` without defects.

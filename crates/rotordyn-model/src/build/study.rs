@@ -9,7 +9,7 @@ use super::orders::{ORDER, orders};
 use super::places::{AnchorKeys, Places};
 use super::rotor_studies::{self, RotorStudyKeys};
 use super::run_analyses::{self, ORDERS_TABLE, SPECTROGRAM_TABLE};
-use super::run_keys::{RUN_STEP, channels, default_step_us, top_speed};
+use super::run_keys::{RUN_STEP, channels, check_step_of_loads, default_step_us, top_speed};
 use super::run_up::{self, RUN_UP, RUN_UP_TABLE};
 use super::steady::{self, SteadyStudyKeys};
 use super::work_limits;
@@ -218,6 +218,8 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
             let step = default_step_us(model, cuts, top_speed(model));
             study.step = step / 1e6;
             r.taken_by_default(&RUN_STEP.step, format!("\"{step} us\""));
+        } else {
+            check_step_of_loads(&r, model, study.step);
         }
         work_limits::check_run_up(
             &r,
