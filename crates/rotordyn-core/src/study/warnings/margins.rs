@@ -24,8 +24,8 @@ impl Machine {
         }
         let [below, above] = LARGEST_REQUIRED;
         let [low, high] = [lowest * (1.0 - below), highest * (1.0 + above)];
-        let beside = [[low, first.min(high)], [last.max(low), high]];
-        beside
+        let gaps = [[low, first.min(high)], [last.max(low), high]];
+        gaps
             .into_iter()
             .filter(|[from, to]| to > from)
             .flat_map(|range| {
