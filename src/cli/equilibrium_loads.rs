@@ -6,7 +6,7 @@ use rotordyn::analysis::preload::MountedPreload;
 use rotordyn::analysis::shaft_loads::ShaftPoint;
 use rotordyn::bearing::Preload;
 
-use super::terminal::{Terminal, number};
+use super::terminal::{Terminal, number, rpm};
 
 /// Forces of supports smaller than this fraction of the largest are round-off.
 const ROUND_OFF: f64 = 1e-9;
@@ -84,7 +84,11 @@ pub fn shaft(terminal: &Terminal, found: &Equilibrium) {
         Some(vec![name.into(), number(value, 4), format!("{:.1}", 1e3 * point.z)])
     })
     .collect();
-    terminal.table("Shaft at rest: largest deflection and loads", &["", "largest", "at z mm"], &rows);
+    let at = match found.speed {
+        0.0 => "at rest".into(),
+        speed => format!("under static loads at {:.0} rpm", rpm(speed)),
+    };
+    terminal.table(&format!("Shaft {at}: largest deflection and loads"), &["", "largest", "at z mm"], &rows);
     let all = found.support_forces.iter().flat_map(|r| r.force);
     let largest = all.fold(0.0, |most: f64, f| most.max(f.abs()));
     let rows: Vec<Vec<String>> = found
@@ -100,6 +104,6 @@ pub fn shaft(terminal: &Terminal, found: &Equilibrium) {
         .collect();
     if !rows.is_empty() {
         let header = ["support", "z mm", "F_x N", "F_y N", "F_z N", "M_x N m", "M_y N m"];
-        terminal.table("Forces of the supports on the shaft at rest", &header, &rows);
+        terminal.table(&format!("Forces of the supports on the shaft {at}"), &header, &rows);
     }
 }

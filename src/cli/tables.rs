@@ -222,11 +222,15 @@ pub fn frf(terminal: &Terminal, found: &FrfResult, machine: &Machine) {
             let Some(peak) = (0..frequencies.len()).max_by(|a, b| size(a).total_cmp(&size(b))) else {
                 continue;
             };
+            let pair = format!("{response}/{excitation}");
+            let infinite = infinite_at(&found.undamped, &pair, |hz| number(hz, 6));
+            let [at, height] =
+                infinite.unwrap_or_else(|| [number(frequencies[peak], 6), number(size(&peak), 4)]);
             rows.push(vec![
                 machine.excitation_label(excitation),
                 response.clone(),
-                number(frequencies[peak], 6),
-                amplitude_text(size(&peak), &found.undamped, &format!("{response}/{excitation}")),
+                at,
+                height,
                 found.units[r][e].clone(),
             ]);
         }
@@ -244,12 +248,14 @@ fn points_text(given: usize, all: usize) -> (usize, String) {
     (given, if all > given { format!(" and {} at resonances", all - given) } else { String::new() })
 }
 
-/// Text of a peak amplitude: infinite at an undamped mode.
-fn amplitude_text(size: f64, undamped: &[UndampedPeak], response: &str) -> String {
-    if undamped.iter().any(|peak| peak.responses.iter().any(|name| name == response)) {
-        return "infinite".into();
-    }
-    number(size, 4)
+/// Where a response is infinite, and that it is; `None` without an undamped mode in it.
+fn infinite_at(
+    undamped: &[UndampedPeak],
+    response: &str,
+    text: impl Fn(f64) -> String,
+) -> Option<[String; 2]> {
+    let at: Vec<String> = UndampedPeak::of(undamped, response).map(text).collect();
+    (!at.is_empty()).then(|| [at.join(", "), "infinite".into()])
 }
 
 pub fn unbalance(terminal: &Terminal, found: &UnbalanceResult) {
@@ -258,14 +264,18 @@ pub fn unbalance(terminal: &Terminal, found: &UnbalanceResult) {
         let at = (0..sizes.len()).max_by(|a, b| sizes[*a].total_cmp(&sizes[*b]))?;
         Some((rpm(*speeds.get(at)?), sizes[at], at))
     };
+    let largest = |name: &str, speed: f64, size: f64| {
+        let infinite = infinite_at(&found.undamped, name, |at| format!("{:.1}", rpm(at)));
+        infinite.unwrap_or_else(|| [format!("{speed:.1}"), number(size, 4)])
+    };
     let mut rows = Vec::new();
     for channel in &found.channels {
         let sizes = channel.amplitude.iter().map(|[re, im]| re.hypot(*im)).collect();
         if let Some((speed, size, _)) = peak(sizes) {
             let unit = unit_of(channel.probe.quantity, is_rotation(&channel.probe.direction));
             let name = channel.probe.name.clone();
-            let size = amplitude_text(size, &found.undamped, &name);
-            rows.push(vec![name, format!("{speed:.1}"), size, unit.into()]);
+            let [at, size] = largest(&name, speed, size);
+            rows.push(vec![name, at, size, unit.into()]);
         }
     }
     for disc in &found.orbits {
@@ -276,8 +286,8 @@ pub fn unbalance(terminal: &Terminal, found: &UnbalanceResult) {
         if let Some((speed, size, k)) = peak((0..disc.x.len()).map(|k| orbit(k).major).collect()) {
             let whirl = if orbit(k).minor < 0.0 { "backward" } else { "forward" };
             let name = format!("orbit of disc.{}", disc.name);
-            let size = amplitude_text(size, &found.undamped, &name);
-            rows.push(vec![format!("{name} ({whirl})"), format!("{speed:.1}"), size, "m".into()]);
+            let [at, size] = largest(&name, speed, size);
+            rows.push(vec![format!("{name} ({whirl})"), at, size, "m".into()]);
         }
     }
     let (given, added) = points_text(found.requested.len(), speeds.len());

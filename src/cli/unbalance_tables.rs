@@ -44,17 +44,25 @@ pub fn margins(terminal: &Terminal, found: &UnbalanceResult) {
     terminal.print(&format!("  {operating}; {largest}"));
 }
 
-/// Largest dynamic force of every bearing, and that at the highest operating speed.
+/// Largest dynamic force of every bearing; infinite at undamped modes.
 pub fn bearing_forces(terminal: &Terminal, found: &UnbalanceResult) {
     let speeds = &found.speeds;
+    let undamped: Vec<String> = found.undamped.iter().map(|peak| format!("{:.1}", rpm(peak.at))).collect();
+    let infinite = undamped.join(", ");
     let rows: Vec<Vec<String>> = found
         .bearing_forces
         .iter()
         .filter_map(|bearing| {
             let k = bearing.largest()?;
             let [x, y] = bearing.components(k);
-            let mut row = vec![bearing.name.clone(), format!("{:.1}", rpm(speeds[k]))];
-            row.extend([x, y, bearing.amplitude(k)].map(|force| number(force, 4)));
+            let mut row = vec![bearing.name.clone()];
+            if bearing.amplitude(k) > 0.0 && !infinite.is_empty() {
+                row.push(infinite.clone());
+                row.extend(["infinite"; 3].map(String::from));
+            } else {
+                row.push(format!("{:.1}", rpm(speeds[k])));
+                row.extend([x, y, bearing.amplitude(k)].map(|force| number(force, 4)));
+            }
             row.extend(bearing.at_rest.map(|force| number(force, 4)));
             Some(row)
         })
@@ -65,26 +73,27 @@ pub fn bearing_forces(terminal: &Terminal, found: &UnbalanceResult) {
     }
 }
 
-/// Where along the shaft deflection, shear force and bending moment are largest.
+/// Where along the shaft deflection, shear force and bending moment are largest, and where they are infinite.
 pub fn shaft(terminal: &Terminal, found: &UnbalanceResult) {
     let at = |largest: Option<(&ShaftAmplitude, f64)>, factor: f64| {
         largest.map_or("-".into(), |(p, v)| format!("{} at {:.1}", number(factor * v, 4), 1e3 * p.z))
     };
-    let rows: Vec<Vec<String>> = found
-        .shaft
-        .iter()
-        .map(|shaft| {
-            vec![
-                format!("{:.1}", rpm(shaft.speed)),
-                shaft.reason.clone(),
-                at(ShaftAmplitude::largest(&shaft.points, |p| p.displacement), 1e6),
-                at(ShaftAmplitude::largest(&shaft.points, |p| p.shear), 1.0),
-                at(ShaftAmplitude::largest(&shaft.points, |p| p.moment), 1.0),
-            ]
-        })
-        .collect();
+    let infinite = found.undamped.iter().map(|peak| {
+        let cells = [format!("{:.1}", rpm(peak.at)), format!("{}, undamped", peak.label)];
+        cells.into_iter().chain(["infinite"; 3].map(String::from)).collect()
+    });
+    let shaft = found.shaft.iter().map(|shaft| {
+        vec![
+            format!("{:.1}", rpm(shaft.speed)),
+            shaft.reason.clone(),
+            at(ShaftAmplitude::largest(&shaft.points, |p| p.displacement), 1e6),
+            at(ShaftAmplitude::largest(&shaft.points, |p| p.shear), 1.0),
+            at(ShaftAmplitude::largest(&shaft.points, |p| p.moment), 1.0),
+        ]
+    });
+    let rows: Vec<Vec<String>> = infinite.chain(shaft).collect();
     let header = ["rpm", "", "deflection um at z mm", "shear N at z mm", "bending moment N m at z mm"];
-    if !rows.is_empty() {
+    if !found.shaft.is_empty() {
         terminal.table("Shaft under unbalance: largest amplitudes along it", &header, &rows);
     }
 }

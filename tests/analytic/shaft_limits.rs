@@ -45,7 +45,7 @@ fn internal_damping_stability_threshold_of_jeffcott_rotor() {
     let tangents = |_| Ok(Vec::new());
     let speeds: Vec<f64> = (0..=12).map(|k| expected * f64::from(k) / 8.0).collect();
     let diagram = campbell(&assembly, &speeds, 2, &tangents).unwrap();
-    let found = thresholds(&assembly, &diagram, &[], &tangents).unwrap();
+    let found = thresholds(&assembly, &diagram, &[], &tangents, &[]).unwrap();
     assert_eq!(found.len(), 1, "only the forward mode turns unstable");
     assert!(found[0].unstable_above);
     assert!(found[0].mode.whirl[4] > 0.999);

@@ -37,6 +37,7 @@ mod spoiled_run_ups;
 mod steady;
 mod trend;
 mod trend_statements;
+mod unbalance_tables;
 mod update_frf;
 mod validate_update;
 

@@ -24,6 +24,7 @@ mod refined_grids;
 mod sensitivity;
 mod speed_dependent_bearings;
 mod tables;
+mod thresholds;
 mod tracking;
 mod undamped;
 mod whirl_tables;

@@ -46,6 +46,17 @@ pub const LINEAR: &[Case] = &[
                 .into();
         models(&rotor.text(), &rotor.text().replace("\"2000 N s/m\"", "\"0 N s/m\""))
     }),
+    (Code::MarginRange, || {
+        // The critical speed is 2552 rpm, 15 % below 3000 rpm.
+        let of = |from: f64| {
+            let mut rotor = machine("two_discs_soft");
+            rotor.more = format!(
+                "[study.unbalance]\nspeeds = {{ from = \"{from} rpm\", to = \"4000 rpm\", step = \"100 rpm\" }}\n"
+            );
+            rotor.text()
+        };
+        models(&of(100.0), &of(2600.0))
+    }),
     (Code::LinearRange, || {
         let of = |unbalance| {
             let mut rig = machine("rig_short");

@@ -4,7 +4,7 @@
 //!
 //! | in the document | table |
 //! |---|---|
-//! | single values of a section | `SECTION`, one row; of listed sections and of groups by name a row each |
+//! | single values of a section | `SECTION`, one row; of listed sections, lists and groups by name a row each, in whose tables the texts at its beginning or its name come first |
 //! | table | `SECTION_TABLE`; a table within its rows repeats the columns of the outer row, and puts its name before those of its own that are named alike |
 //! | numbers over an axis in each row | `SECTION_TABLE_over_AXIS`, a row for each value of the axis |
 //! | arrays over an axis | `SECTION_over_AXIS`, a column each |
@@ -30,15 +30,18 @@ pub fn tables(sections: &[Section]) -> Vec<TextTable> {
     for section in sections {
         let mut outer = Columns::one_row();
         if section.listed {
-            // The texts at the beginning of a listed section say whose values these are.
-            let texts = section.content.fields.iter();
-            for field in texts.take_while(|field| matches!(field.value, Value::Text(_))) {
-                values(&mut outer, "", field, Within::Document);
-            }
+            first_texts(&mut outer, &section.content);
         }
         document(&mut out, section.json, &outer, &section.content);
     }
     out.finished()
+}
+
+/// The texts at the beginning of a document, which say whose values these are among several.
+fn first_texts(row: &mut Columns, found: &Document) {
+    for field in found.fields.iter().take_while(|field| matches!(field.value, Value::Text(_))) {
+        values(row, "", field, Within::Document);
+    }
 }
 
 /// Names of the CSV files of tables, none twice.
@@ -65,12 +68,17 @@ pub fn write_csv(folder: &Path, sections: &[Section]) -> Result<Vec<PathBuf>, Er
 
 /// The single values of a document in one row, its tables and its curves; `outer`: what the row begins with.
 fn document(out: &mut Tables, name: &str, outer: &Columns, found: &Document) {
+    single_values(out, name, outer, found);
+    members(out, name, outer, found, true);
+}
+
+/// The single values of a document in one row, if it has any.
+fn single_values(out: &mut Tables, name: &str, outer: &Columns, found: &Document) {
     let mut row = outer.clone();
     all_values(&mut row, "", found, Within::Document);
     if row.len() > outer.len() {
         out.add(name, row);
     }
-    members(out, name, outer, found, true);
 }
 
 /// Tables, lists and curves of a document; `in_json`: whether JSON has it.
@@ -83,13 +91,18 @@ fn members(out: &mut Tables, name: &str, outer: &Columns, found: &Document, in_j
             }
             // What only HDF5 has in tables and lists, JSON has in another form.
             _ if field.names.json.is_none() => {}
+            Value::Groups { .. } | Value::Table(_) if !in_json => {}
             Value::Groups { key, groups } => {
                 for (of, inner) in groups {
-                    let mut outer = outer.clone();
+                    let mut named = outer.clone();
                     if !key.is_empty() {
-                        outer.add(*key, vec![of.clone()]);
+                        named.add(*key, vec![of.clone()]);
                     }
-                    document(out, &name, &outer, inner);
+                    single_values(out, &name, &named, inner);
+                    if key.is_empty() {
+                        first_texts(&mut named, inner);
+                    }
+                    members(out, &name, &named, inner, true);
                 }
             }
             // The single values of a record stand in the row of the document.

@@ -190,13 +190,39 @@ impl<T: Tangents> Tracker<'_, T> {
         Ok(first.into_iter().map(|i| i.and_then(|i| second[i])).collect())
     }
 
+    /// Continuation of every mode of `a` in `b`, as between two speeds of a diagram.
+    pub fn continued(
+        &self,
+        a: (f64, &[Mode]),
+        b: (f64, &[Mode]),
+        tracked: &[Option<usize>],
+    ) -> Result<Vec<Option<usize>>, PhysicsError> {
+        self.link_modes(a, b, tracked, MAX_HALVINGS)
+    }
+
+    /// Index of the mode that is the most similar to all of `ends` by the sum of the MAC; of those of a repeated eigenvalue, which
+    /// share it, the one whose own shape is.
+    pub fn most_similar(&self, ends: &[Mode], modes: &[Mode]) -> Option<usize> {
+        /// Largest difference of sums that count as equal.
+        const EQUAL: f64 = 1e-3;
+        let (shared, own) = (self.mac(ends, modes), self.own_mac(ends, modes));
+        let sum = |mac: &[Vec<f64>], j: usize| mac.iter().map(|row| row[j]).sum::<f64>();
+        let best = (0..modes.len()).map(|j| sum(&shared, j)).max_by(f64::total_cmp)?;
+        let equal = (0..modes.len()).filter(|&j| sum(&shared, j) > best - EQUAL);
+        equal.max_by(|&i, &j| sum(&own, i).total_cmp(&sum(&own, j)))
+    }
+
+    /// MAC matrix between the modes of `a` and `b`, each by its own shape.
+    fn own_mac(&self, a: &[Mode], b: &[Mode]) -> Vec<Vec<f64>> {
+        let momenta: Vec<Vec<Complex64>> =
+            b.iter().map(|m| self.assembly.mass.mul_complex(&m.shape)).collect();
+        a.iter().map(|m| momenta.iter().map(|p| inner(&m.shape, p).norm_sqr()).collect()).collect()
+    }
+
     /// MAC matrix between the modes of `a` and `b`; modes of a repeated eigenvalue share their sum, since any
     /// linear combination of them is a mode too.
     pub fn mac(&self, a: &[Mode], b: &[Mode]) -> Vec<Vec<f64>> {
-        let momenta: Vec<Vec<Complex64>> =
-            b.iter().map(|m| self.assembly.mass.mul_complex(&m.shape)).collect();
-        let plain: Vec<Vec<f64>> =
-            a.iter().map(|m| momenta.iter().map(|p| inner(&m.shape, p).norm_sqr()).collect()).collect();
+        let plain = self.own_mac(a, b);
         let same = |p: &Mode, q: &Mode| (p.eigenvalue - q.eigenvalue).norm() < 1e-7 * q.natural_omega();
         let mut shared = plain.clone();
         for (i, row) in shared.iter_mut().enumerate() {

@@ -8,6 +8,8 @@ const HALF_POWER: f64 = std::f64::consts::FRAC_1_SQRT_2;
 const VALLEY: f64 = 0.95;
 /// Amplification factor below which a peak counts as critically damped.
 pub const CRITICALLY_DAMPED: f64 = 2.5;
+/// Largest separation margin that API 617 requires below, and among and above the operating speeds.
+pub const LARGEST_REQUIRED: [f64; 2] = [0.16, 0.26];
 
 /// A resonance peak of an amplitude over speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -62,7 +64,8 @@ pub fn required_separation(critical: f64, factor: f64, [lowest, _]: [f64; 2]) ->
         return 0.0;
     }
     let margin = 0.17 * (1.0 - 1.0 / (factor - 1.5));
-    if critical < lowest { margin.min(0.16) } else { (0.1 + margin).min(0.26) }
+    let [below, above] = LARGEST_REQUIRED;
+    if critical < lowest { margin.min(below) } else { (0.1 + margin).min(above) }
 }
 
 /// Peaks of an amplitude over increasing speeds, the ends of the range excluded.

@@ -7,9 +7,14 @@ use crate::document::{Rows, TO_RPM, named};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Distance of a peak from its critical speed: in half-widths of the mode, and as a fraction of the speed where that is
-/// more (peaks of well damped modes are shifted by their neighbours).
-const REACH: [f64; 2] = [3.0, 0.03];
+/// Largest distance of a peak from the critical speed of its mode, as a fraction of it; 3 half-widths of the mode where that is
+/// between the two (neighbours shift the peaks of well damped modes).
+const REACH: [f64; 2] = [0.03, 0.3];
+const HALF_WIDTHS: f64 = 3.0;
+/// A peak is sharper than its mode alone, AF = 1/(2ζ), at most by this factor.
+const SHARPER: f64 = 2.0;
+/// A peak is broader than its mode alone at most by this factor: a neighbour may fill one flank.
+const BROADER: f64 = 10.0;
 
 /// A lateral critical speed, assessed as in API 617.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,7 +25,8 @@ pub struct SeparationMargin {
     pub label: String,
     /// Log decrement δ of the mode there.
     pub log_decrement: f64,
-    /// The response whose peak is the sharpest, and the speed of that peak \[rad/s\].
+    /// The response whose peak is the sharpest, and the speed of that peak \[rad/s\]; of an undamped mode no single response, and
+    /// the critical speed itself.
     pub response: Option<String>,
     pub peak: Option<f64>,
     /// Amplification factor AF = N_c/(N_2 − N_1) of that peak; infinite for an undamped mode.
@@ -63,8 +69,8 @@ impl Assessment {
 
 /// The margins of every pole of an unbalance response, by speed; without torsional and axial modes that it does not excite.
 ///
-/// A peak belongs to the pole that is nearest in place and width; of several peaks of a pole the one with the largest AF counts, which requires the
-/// largest margin. `excited` says whether the unbalance excites a pole.
+/// A peak belongs to the nearest of the excited poles that can have it ([`can_have`]); of several peaks of a pole the one with the
+/// largest AF counts, which requires the largest margin. `excited` says whether the unbalance excites a pole.
 pub fn separation_margins(
     poles: &[Pole],
     peaks: &[(String, Peak)],
@@ -72,21 +78,10 @@ pub fn separation_margins(
     operating: Option<[f64; 2]>,
 ) -> Vec<SeparationMargin> {
     let excited: Vec<&Pole> = poles.iter().filter(|pole| excited(pole)).collect();
-    let distance = |pole: &Pole, peak: &Peak| {
-        (peak.at - pole.at).abs() / (REACH[0] * pole.half_width).max(REACH[1] * pole.at)
-    };
-    // How much wider or narrower the peak is than the mode makes it, as a logarithm: a sharp peak on the flank of a well damped
-    // mode is not that mode's.
-    let misfit = |pole: &Pole, peak: &Peak| match peak.half_power {
-        Some([low, high]) if high > low && pole.half_width > 0.0 => {
-            (2.0 * pole.half_width / (high - low)).ln().abs()
-        }
-        _ => 0.0,
-    };
     let owner = |peak: &Peak| {
-        let near = excited.iter().filter(|pole| distance(pole, peak) <= 1.0);
-        let cost = |pole: &Pole| distance(pole, peak).hypot(misfit(pole, peak));
-        near.min_by(|a, b| cost(a).total_cmp(&cost(b))).map(|pole| pole.at)
+        let distance = |pole: &Pole| (peak.at / pole.at - 1.0).abs();
+        let able = excited.iter().filter(|pole| can_have(pole, peak));
+        able.min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|pole| pole.at)
     };
     let not_lateral = [ModeKind::Torsional, ModeKind::Axial];
     let mut found: Vec<SeparationMargin> = poles
@@ -100,8 +95,9 @@ pub fn separation_margins(
             let sharpest = own
                 .filter_map(|(name, peak)| Some((name, peak.at, peak.amplification()?)))
                 .max_by(|a, b| a.2.total_cmp(&b.2));
-            // An undamped response is infinite: it has no peak that could be measured.
+            // An undamped response is infinite at the critical speed itself, whatever a grid of speeds shows beside it.
             let undamped = is_excited && pole.is_undamped();
+            let sharpest = sharpest.filter(|_| !undamped);
             let amplification =
                 if undamped { Some(f64::INFINITY) } else { sharpest.map(|(_, _, factor)| factor) };
             let at = sharpest.map_or(pole.at, |(_, at, _)| at);
@@ -127,7 +123,7 @@ pub fn separation_margins(
                 label: pole.label.clone(),
                 log_decrement: TAU * zeta / (1.0 - zeta * zeta).sqrt(),
                 response: sharpest.map(|(name, ..)| name.clone()),
-                peak: sharpest.map(|(_, at, _)| at),
+                peak: sharpest.map(|(_, at, _)| at).or(undamped.then_some(pole.at)),
                 amplification,
                 available,
                 required,
@@ -137,6 +133,15 @@ pub fn separation_margins(
         .collect();
     found.sort_by(|a, b| a.speed.total_cmp(&b.speed));
     found
+}
+
+/// Whether a peak with both half-power points can be that of a damped mode: near its critical speed, and as wide as 1/(2ζ) of the
+/// mode allows. On the flank of a well damped mode a sharp peak is that of another mode, however near it is.
+fn can_have(pole: &Pole, peak: &Peak) -> bool {
+    let Some(factor) = peak.amplification() else { return false };
+    let reach = (HALF_WIDTHS * pole.half_width / pole.at).clamp(REACH[0], REACH[1]);
+    let own = 0.5 * pole.at / pole.half_width;
+    (peak.at / pole.at - 1.0).abs() <= reach && factor <= SHARPER * own && own <= BROADER * factor
 }
 
 impl SeparationMargin {
@@ -229,6 +234,71 @@ mod tests {
         // And the broad peak of a broad mode is not that of the sharp one.
         let found = separation_margins(&poles, &[peak(101.5, 0.7)], |_| true, None);
         assert_eq!((found[0].amplification, found[1].amplification.is_some()), (None, true));
+    }
+
+    #[test]
+    fn a_broad_peak_beside_a_sharp_mode_is_the_sharp_mode_s() {
+        // One flank of the response at 5146.5 rpm is that of the broad mode at 5629 rpm, whose own peaks lie 3 % above it.
+        let poles = [Pole::new(5119.3, 55.0), Pole::new(5628.8, 202.0)];
+        let peaks = [peak(5119.7, 46.8), peak(5146.5, 9.73), peak(5776.3, 3.83), peak(5793.7, 3.99)];
+        let found = separation_margins(&poles, &peaks, |_| true, Some([4000.0, 4600.0]));
+        assert_eq!([found[0].peak, found[1].peak], [Some(5119.7), Some(5793.7)]);
+        assert_eq!(
+            [found[0].assessment, found[1].assessment],
+            [Assessment::Insufficient, Assessment::Sufficient]
+        );
+        assert!((found[1].available.unwrap() - (5793.7 / 4600.0 - 1.0)).abs() < 1e-12);
+    }
+
+    /// Peaks of the response to a rotating force of Σ 1/(ω² − Ω² + 2jζωΩ) of modes (ω, ζ, weight).
+    fn peaks_of(modes: &[(f64, f64, f64)]) -> Vec<(String, Peak)> {
+        use rotordyn_linalg::Complex64;
+        let speeds: Vec<f64> = (1..40_000).map(|k| 0.01 * f64::from(k)).collect();
+        let size = |speed: &f64| {
+            let part = |(w, zeta, weight): &(f64, f64, f64)| {
+                weight * speed * speed / Complex64::new(w * w - speed * speed, 2.0 * zeta * w * speed)
+            };
+            modes.iter().map(part).sum::<Complex64>().norm()
+        };
+        let sizes: Vec<f64> = speeds.iter().map(size).collect();
+        super::super::peaks::peaks(&speeds, &sizes).into_iter().map(|peak| ("probe".into(), peak)).collect()
+    }
+
+    #[test]
+    fn peaks_of_superposed_modes_go_to_their_modes() {
+        for (zeta, weight) in [(0.02, 1.0), (0.05, 1.0), (0.05, -1.0), (0.08, -0.5)] {
+            // The sharp mode at 100, a broader one at 130, one beyond critical damping at 103.
+            let modes = [(100.0, 0.01, 1.0), (130.0, zeta, weight), (103.0, 0.856, 1.0)];
+            let poles: Vec<Pole> = modes.iter().map(|(w, zeta, _)| Pole::new(*w, zeta * w)).collect();
+            let found = separation_margins(&poles, &peaks_of(&modes), |_| true, Some([50.0; 2]));
+            // By speed: 100, 103, 130.
+            let at = found[0].peak.unwrap();
+            assert!((at / 100.0 - 1.0).abs() < 0.01, "{zeta} {weight}: {at}");
+            assert!((found[0].amplification.unwrap() / 50.0 - 1.0).abs() < 0.25, "{zeta} {weight}");
+            assert_eq!((found[1].peak, found[1].assessment), (None, Assessment::CriticallyDamped));
+            assert!(found[2].peak.is_none_or(|at| (at / 130.0 - 1.0).abs() < 3.0 * zeta), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_mode_beyond_critical_damping_has_no_sharp_peak() {
+        // The mode of the peak, at 1432.9 rpm, is not excited by the unbalance.
+        let poles = [Pole::new(1432.9, 124.8), Pole::new(1564.5, 1339.0), Pole::new(5673.9, 1426.0)];
+        let found =
+            separation_margins(&poles, &[peak(1446.9, 5.87)], |p| p.at > 1500.0, Some([1540.0, 1560.0]));
+        let assessed: Vec<_> = found.iter().map(|m| (m.assessment, m.amplification)).collect();
+        let damped = (Assessment::CriticallyDamped, None);
+        assert_eq!(assessed, [(Assessment::NotExcited, None), damped, damped]);
+    }
+
+    #[test]
+    fn the_margin_of_an_undamped_mode_is_that_of_its_critical_speed() {
+        // The highest point of a grid, at 1083.6 rpm, is 26.3 % away.
+        let poles = [Pole::new(1076.2, 0.0)];
+        let found = separation_margins(&poles, &[peak(1083.6, 37.9)], |_| true, Some([850.0, 858.0]));
+        assert_eq!((found[0].peak, &found[0].response), (Some(1076.2), &None));
+        assert!((found[0].available.unwrap() - (1076.2 / 858.0 - 1.0)).abs() < 1e-12);
+        assert_eq!(found[0].assessment, Assessment::Insufficient);
     }
 
     #[test]

@@ -23,9 +23,15 @@ impl UndampedPeak {
     pub fn covers(&self, at: f64) -> bool {
         (at - self.at).abs() <= Self::WIDTH * self.at
     }
-}
 
-impl UndampedPeak {
+    /// Frequencies or speeds where a response is infinite.
+    pub fn of(found: &[Self], response: &str) -> impl Iterator<Item = f64> {
+        found
+            .iter()
+            .filter(move |peak| peak.responses.iter().any(|name| name == response))
+            .map(|peak| peak.at)
+    }
+
     /// What is written to files: frequency or speed times `factor` under the name `at`.
     pub(super) fn columns<'a, 'r>(found: &'r [Self], at: &str, factor: f64) -> Rows<'a, 'r, Self> {
         Rows::of(found)

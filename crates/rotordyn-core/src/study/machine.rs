@@ -307,7 +307,7 @@ impl Machine {
         let nodes = if follows { self.table_speeds() } else { Vec::new() };
         let crossings =
             critical_speed::crossings(&self.assembly, &diagram, &study.orders, &tangents, &nodes)?;
-        let thresholds = stability::thresholds(&self.assembly, &diagram, &crossings.list, &tangents)?;
+        let thresholds = stability::thresholds(&self.assembly, &diagram, &crossings.list, &tangents, &nodes)?;
         Ok(CampbellResult { diagram, orders: self.order_lines(&study.orders), crossings, thresholds })
     }
 

@@ -36,6 +36,7 @@ mod torsional;
 pub mod trend;
 mod unbalance_comparison;
 mod unbalance_loads;
+mod unbalance_peaks;
 mod variant_comparison;
 mod warnings;
 

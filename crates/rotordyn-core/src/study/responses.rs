@@ -2,20 +2,20 @@
 
 use super::Machine;
 use super::unbalance_loads::{UnbalanceSample, bearing_displacements};
+use super::unbalance_peaks::response_peaks;
 use crate::analysis::frf::{Frf, FrfSolver, derivative_factor};
-use crate::analysis::peaks::peaks;
 use crate::analysis::poles::{Pole, frf_poles, synchronous_poles};
 use crate::analysis::refine::{RefinedGrid, refine};
 use crate::analysis::section_loads::ShaftSections;
 use crate::analysis::separation::separation_margins;
-use crate::analysis::unbalance::{Orbit, UnbalanceMotion, UnbalanceSolver};
+use crate::analysis::unbalance::{UnbalanceMotion, UnbalanceSolver};
 use crate::assembly::PhysicsError;
 use crate::element::Anchor;
 use crate::model::study::{Excitation, FrfStudy, UnbalanceStudy};
 use crate::model::{Probe, Quantity};
 use crate::results::{
-    DiscOrbit, FrfResult, LeastDampedMode, ResponsePeak, UnbalanceChannel, UnbalanceResult, UndampedPeak,
-    is_rotation, unit_of,
+    DiscOrbit, FrfResult, LeastDampedMode, UnbalanceChannel, UnbalanceResult, UndampedPeak, is_rotation,
+    unit_of,
 };
 use rayon::prelude::*;
 use rotordyn_linalg::{Complex64, SparseRow};
@@ -213,7 +213,7 @@ impl Machine {
                 DiscOrbit { name: (*name).to_string(), x: along(row), y: along(row + 1) }
             })
             .collect();
-        let peaks = response_peaks(&speeds, &channels, &orbits);
+        let peaks = response_peaks(&speeds, &channels, &orbits, &undamped);
         let operating_speeds = self.operating_speeds(study);
         let excited = |pole: &Pole| pole.is_excited_by(&self.assembly.unbalance_amplitude(pole.at));
         let named: Vec<_> = peaks.iter().map(|peak| (peak.response.clone(), peak.peak)).collect();
@@ -289,25 +289,4 @@ fn undamped_peaks(
         .map(|pole| UndampedPeak { at: pole.at, label: pole.label.clone(), responses: appears_in(pole) })
         .filter(|peak| !peak.responses.is_empty())
         .collect()
-}
-
-/// Peaks of every channel and of every orbit's semi-major axis, by speed.
-fn response_peaks(speeds: &[f64], channels: &[UnbalanceChannel], orbits: &[DiscOrbit]) -> Vec<ResponsePeak> {
-    let mut found = Vec::new();
-    let mut add = |response: String, unit: &'static str, sizes: Vec<f64>| {
-        let of = |peak| ResponsePeak { response: response.clone(), unit: unit.into(), peak };
-        found.extend(peaks(speeds, &sizes).into_iter().map(of));
-    };
-    for channel in channels {
-        let unit = unit_of(channel.probe.quantity, is_rotation(&channel.probe.direction));
-        let sizes = channel.amplitude.iter().map(|[re, im]| re.hypot(*im)).collect();
-        add(channel.probe.name.clone(), unit, sizes);
-    }
-    for disc in orbits {
-        let complex = |[re, im]: [f64; 2]| Complex64::new(re, im);
-        let major = |(x, y): (&[f64; 2], &[f64; 2])| Orbit::new(complex(*x), complex(*y)).major;
-        add(format!("orbit of disc.{}", disc.name), "m", disc.x.iter().zip(&disc.y).map(major).collect());
-    }
-    found.sort_by(|a, b| a.peak.at.total_cmp(&b.peak.at));
-    found
 }

@@ -78,7 +78,7 @@ impl Machine {
     }
 
     /// Amplitudes along the shaft where its bending moment is largest, and at the highest operating speed if that lies
-    /// within the speeds of the response.
+    /// within the speeds of the response. With an undamped mode the moment has no largest value, but that of the grid.
     pub(super) fn shaft_amplitudes(
         &self,
         shaft: &ShaftSections,
@@ -90,12 +90,13 @@ impl Machine {
         let moments = speeds.iter().zip(samples).filter(|(speed, _)| finite(speed));
         let moments = moments.filter_map(|(speed, sample)| Some((sample.bending?, *speed)));
         let Some((_, largest)) = moments.max_by(|a, b| a.0.total_cmp(&b.0)) else { return Ok(Vec::new()) };
+        let largest = undamped.is_empty().then_some((largest, "largest bending moment"));
         let within = |speed: &f64| {
             let ends = speeds.first().zip(speeds.last());
             ends.is_some_and(|(first, last)| (first..=last).contains(&speed)) && finite(speed)
         };
         let highest = operating.map(|speeds| speeds[1]).filter(within);
-        let mut wanted = vec![(largest, "largest bending moment")];
+        let mut wanted: Vec<(f64, &str)> = largest.into_iter().collect();
         wanted.extend(highest.map(|speed| (speed, "highest operating speed")));
         let at: Vec<f64> = wanted.iter().map(|(speed, _)| *speed).collect();
         let tangents = |speed| self.tangents(speed, true);

@@ -183,6 +183,11 @@ codes! {
         "A mode in the range of the response has no damping: the response is infinite there; or so little (amplification factor \
          above 50000) that the height of its peak says nothing.",
         "state damping: [damping] modal, or damping of supports";
+    MarginRange, "margin-range", Caution,
+        "A critical speed lies so near the operating speeds that API 617 may ask for more distance, but beside the speeds of the \
+         unbalance response: the table of separation margins does not have it.",
+        "extend the speeds of the response to it: --max-speed, study.unbalance.speeds; from 16 % below the operating speeds to \
+         26 % above them none is missed";
     LinearRange, "linear-range", Serious,
         "A linear response moves a bearing by more than its clearance, or loads it with more than its static load: its \
          contacts open, and its stiffness is another.",

@@ -1,6 +1,7 @@
 //! Warnings of a machine and its results: one pass over model, equilibrium and studies.
 
 mod linear;
+mod margins;
 mod modes;
 mod order_tracks;
 mod run;
@@ -37,6 +38,9 @@ impl Machine {
             vec![Warning::new(Code::NotChecked, "", text)]
         }));
         found.extend(self.linear_warnings(results));
+        if !speeds.is_empty() {
+            found.extend(results.unbalance.iter().flat_map(|response| self.margin_range_warnings(response)));
+        }
         found.extend(results.run_up.iter().flat_map(|run| self.run_up_warnings(run)));
         for warning in results.run_up.iter().flat_map(|run| self.peak_load_warnings(&run.peak_loads)) {
             // That of the static load is enough.

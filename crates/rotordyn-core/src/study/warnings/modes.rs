@@ -1,10 +1,10 @@
 //! Modes: unstable, lost or uncertain.
 
 use super::supports::standstill_and_top;
-use crate::analysis::campbell::Branch;
+use crate::analysis::campbell::{Branch, Campbell};
 use crate::analysis::critical_speed::{CriticalSpeed, UnstableMode};
 use crate::analysis::divergence::{Divergence, divergence};
-use crate::analysis::stability::is_unstable;
+use crate::analysis::stability::{Threshold, is_unstable};
 use crate::analysis::table_range::speed_range;
 use crate::analysis::{Mode, ModeKind, modal};
 use crate::assembly::PhysicsError;
@@ -177,16 +177,19 @@ fn shortest_half_wave(shape: &[Complex64]) -> Option<usize> {
     inner.iter().filter(|(_, height)| *height > HIGH * largest).map(|(nodes, _)| *nodes).min()
 }
 
-/// Ranges of the speeds of a diagram in which a branch is unstable, the last one without an end if it is so at the last speed at
-/// which it is known.
-fn unstable_ranges(speeds: &[f64], branch: &Branch) -> Vec<[f64; 2]> {
+/// Ranges of speeds in which a branch of a diagram is unstable, the last one without an end if it is so at the last speed at which
+/// it is known: between its thresholds, else those of the diagram.
+fn unstable_ranges(diagram: &Campbell, branch: usize, thresholds: &[&Threshold]) -> Vec<[f64; 2]> {
+    let modes = diagram.speeds.iter().zip(&diagram.branches[branch].modes);
+    let known =
+        modes.filter_map(|(speed, mode)| Some((*speed, is_unstable(mode.as_ref()?.eigenvalue), false)));
+    let turns = thresholds.iter().map(|threshold| (threshold.speed, threshold.unstable_above, true));
+    let mut known: Vec<(f64, bool, bool)> = turns.chain(known).collect();
+    known.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut ranges: Vec<[f64; 2]> = Vec::new();
     let mut is_open = false;
-    for (speed, mode) in
-        speeds.iter().zip(&branch.modes).filter_map(|(speed, mode)| Some((*speed, mode.as_ref()?)))
-    {
-        let grows = is_unstable(mode.eigenvalue);
-        match ranges.last_mut().filter(|_| is_open && grows) {
+    for (speed, grows, is_threshold) in known {
+        match ranges.last_mut().filter(|_| is_open && (grows || is_threshold)) {
             Some(range) => range[1] = speed,
             None if grows => ranges.push([speed; 2]),
             None => {}
@@ -201,22 +204,39 @@ fn unstable_ranges(speeds: &[f64], branch: &Branch) -> Vec<[f64; 2]> {
 
 pub(super) fn warnings(results: &Results) -> Vec<Warning> {
     let mut found = Vec::new();
-    if let Some(diagram) = results.campbell.as_ref().map(|found| &found.diagram) {
-        let ranges = |branch| (branch, unstable_ranges(&diagram.speeds, branch));
-        let unstable: Vec<(&Branch, Vec<[f64; 2]>)> =
-            diagram.branches.iter().map(ranges).filter(|(_, ranges)| !ranges.is_empty()).collect();
-        found.extend(unstable.iter().map(|(branch, ranges)| {
+    if let Some(result) = &results.campbell {
+        let diagram = &result.diagram;
+        let ranges = |(at, branch)| {
+            let own = result.thresholds.iter().filter(|threshold| threshold.branch == Some(at));
+            let own: Vec<&Threshold> = own.collect();
+            let ranges = unstable_ranges(diagram, at, &own);
+            (branch, own.iter().map(|threshold| threshold.speed).collect(), ranges)
+        };
+        let unstable: Vec<(&Branch, Vec<f64>, Vec<[f64; 2]>)> = diagram
+            .branches
+            .iter()
+            .enumerate()
+            .map(ranges)
+            .filter(|(.., ranges)| !ranges.is_empty())
+            .collect();
+        found.extend(unstable.iter().map(|(branch, thresholds, ranges)| {
+            // A threshold is known more exactly than the distance of the speeds of the diagram.
+            let rpm = |speed: &f64| match thresholds.contains(speed) {
+                true => format!("{:.1}", speed * TO_RPM),
+                false => format!("{:.0}", speed * TO_RPM),
+            };
             let range = |[from, to]: &[f64; 2]| match () {
-                () if to.is_infinite() => format!("from {:.0} rpm on", from * TO_RPM),
-                () if from == to => format!("at {:.0} rpm", from * TO_RPM),
-                () => format!("from {:.0} to {:.0} rpm", from * TO_RPM, to * TO_RPM),
+                () if to.is_infinite() && thresholds.contains(from) => format!("above {} rpm", rpm(from)),
+                () if to.is_infinite() => format!("from {} rpm on", rpm(from)),
+                () if from == to => format!("at {} rpm", rpm(from)),
+                () => format!("from {} to {} rpm", rpm(from), rpm(to)),
             };
             let ranges = ranges.iter().map(range).collect::<Vec<_>>().join(" and ");
             let text = format!("{} is unstable {ranges}", branch.label);
             Warning::new(Code::UnstableMode, "study.campbell", text)
         }));
         // Stable at the speeds of the diagram, but not in between.
-        let mut named: Vec<&String> = unstable.into_iter().map(|(branch, _)| &branch.label).collect();
+        let mut named: Vec<&String> = unstable.iter().map(|(branch, ..)| &branch.label).collect();
         for crossing in results.campbell.iter().flat_map(|found| unstable_crossings(&found.crossings.list)) {
             if !named.contains(&&crossing.mode.label) {
                 named.push(&crossing.mode.label);
