@@ -177,6 +177,9 @@ fn shortest_half_wave(shape: &[Complex64]) -> Option<usize> {
     inner.iter().filter(|(_, height)| *height > HIGH * largest).map(|(nodes, _)| *nodes).min()
 }
 
+/// A branch with its thresholds and the ranges of speeds in which it is unstable \[rad/s\].
+type UnstableBranch<'r> = (&'r Branch, Vec<f64>, Vec<[f64; 2]>);
+
 /// Ranges of speeds in which a branch of a diagram is unstable, the last one without an end if it is so at the last speed at which
 /// it is known: between its thresholds, else those of the diagram.
 fn unstable_ranges(diagram: &Campbell, branch: usize, thresholds: &[&Threshold]) -> Vec<[f64; 2]> {
@@ -212,7 +215,7 @@ pub(super) fn warnings(results: &Results) -> Vec<Warning> {
             let ranges = unstable_ranges(diagram, at, &own);
             (branch, own.iter().map(|threshold| threshold.speed).collect(), ranges)
         };
-        let unstable: Vec<(&Branch, Vec<f64>, Vec<[f64; 2]>)> = diagram
+        let unstable: Vec<UnstableBranch> = diagram
             .branches
             .iter()
             .enumerate()
