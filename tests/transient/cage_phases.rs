@@ -140,6 +140,10 @@ fn estimated_step_error_is_that_of_a_run_with_a_much_smaller_step() {
     }
 }
 
+/// Levels of two runs that differ by rounding of an angle: the cuts follow the cage, whose turns the Newton iteration of the
+/// steps knows to about 1e-10.
+const SAME: f64 = 1e-8;
+
 #[test]
 fn ball_pass_levels_range_over_the_phase_between_the_cages() {
     let own = machine(TWO_BEARINGS, &[("study.run_up.cage_phases", "4")]);
@@ -161,11 +165,12 @@ fn ball_pass_levels_range_over_the_phase_between_the_cages() {
         for (line, (cut, own)) in channel.lines.iter().zip(result.cuts.iter().zip(&base.cuts)) {
             println!("{} {}: {:?}", channel.channel, line.line.label, line.peaks);
             let peak = cut.1.rms.iter().copied().fold(0.0, f64::max);
-            assert!((line.peaks[2] / peak - 1.0).abs() < 1e-9, "{} {peak}", line.peaks[2]);
+            assert!((line.peaks[2] / peak - 1.0).abs() < SAME, "{} {peak}", line.peaks[2]);
             for (k, level) in own.1.rms.iter().chain(&cut.1.rms).enumerate() {
                 let at = k % line.minimum.len();
                 assert!(
-                    (line.minimum[at]..=line.maximum[at] * (1.0 + 1e-12)).contains(&(level * (1.0 + 1e-12)))
+                    (line.minimum[at]..=line.maximum[at] * (1.0 + 2.0 * SAME))
+                        .contains(&(level * (1.0 + SAME)))
                 );
             }
         }

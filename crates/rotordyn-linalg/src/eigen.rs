@@ -1,24 +1,12 @@
 //! Dense eigenvalue problems.
 
+pub use super::eigen_error::EigenError;
 use super::{BandLayout, Complex64, SparseMatrix, hessenberg};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{self, ComputeEigenvectors, EvdParams, SelfAdjointEvdParams};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::{Auto, Par, Spec};
 use nalgebra::{Cholesky, DMatrix, DVector};
-
-/// Why an eigenvalue computation failed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum EigenError {
-    #[error("the iteration did not converge")]
-    NoConvergence,
-    #[error("a matrix of the eigenvalue problem is not positive definite")]
-    NotDefinite,
-    #[error("a matrix contains a value that is not finite")]
-    NotFinite,
-    #[error("the shifted matrix is singular")]
-    SingularShift,
-}
 
 /// Eigenvalues and right eigenvectors (columns) of a general real matrix, in no given order.
 ///

@@ -2,7 +2,7 @@
 //!
 //! Cheaper than a whole decomposition where few of the eigenvectors are wanted.
 
-use super::{Complex64, eigen::EigenError};
+use super::{Complex64, eigen_error::EigenError};
 use nalgebra::DMatrix;
 
 /// Steps for each row of the matrix, all together, before the iteration gives up: three are usual, but two close pairs far

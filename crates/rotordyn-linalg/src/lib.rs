@@ -37,6 +37,7 @@ mod coupled_group;
 pub mod dense_lu;
 pub mod dot;
 pub mod eigen;
+mod eigen_error;
 pub mod fft_length;
 pub mod gmres;
 pub mod group_dense;

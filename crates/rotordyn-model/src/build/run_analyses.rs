@@ -133,10 +133,8 @@ pub(super) fn orders_of_run(r: &Reader, model: &Model) -> (OrderStudy, bool) {
     let cuts = orders(r, &ORDERS.cuts, model);
     let highest_cut = highest_of(&cuts);
     let highest = &ORDERS.max_order;
-    let max_order = match r.get(highest) {
-        Some(given) => given,
-        None => declared_default(highest).max(1.1 * highest_cut),
-    };
+    let by_default = declared_default(highest).max(1.1 * highest_cut);
+    let max_order = r.get(highest).unwrap_or(by_default);
     if r.has(highest) && max_order < highest_cut {
         let message = format!("{} is below the cut at order {highest_cut:.4}", r.name(highest));
         let problem = Problem::new(Kind::OutOfRange, &r.span_of(highest), message);
@@ -146,7 +144,7 @@ pub(super) fn orders_of_run(r: &Reader, model: &Model) -> (OrderStudy, bool) {
         channels: channels(r, &WINDOW.channels, model),
         resolution: r.or(&ORDERS.resolution, declared_default(&ORDERS.resolution)),
         max_order,
-        max_order_is_default: !r.has(highest),
+        max_order_is_default: max_order == by_default,
         overlap: r.value(&WINDOW.overlap),
         window: r.word(&WINDOW.window),
         cuts,
