@@ -251,9 +251,7 @@ fn inertias_and_gravity_in_wrong_units_are_named() {
     for gravity in ["9810 m/s^2", "0, 0, -0.00981 m/s^2", "-9.81 m/s^2", "0, 9.81, 0 m/s^2"] {
         assert_eq!(codes(gravity, polar, diametral), ["gravity"], "{gravity}");
     }
-    for (polar, diametral) in
-        [("5e4 kg m^2", "3e4 kg m^2"), ("5e-8 kg m^2", "3e-8 kg m^2"), (polar, "3e-8 kg m^2")]
-    {
+    for (polar, diametral) in [("5e4 kg m^2", "3e4 kg m^2"), ("5e-8 kg m^2", "3e-8 kg m^2")] {
         assert_eq!(codes("9.81 m/s^2", polar, diametral), ["disc-size"], "{polar} {diametral}");
     }
     // A point mass is stated by zeros.

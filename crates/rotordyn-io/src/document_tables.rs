@@ -363,7 +363,6 @@ mod tests {
                 &["rms [m]", "orders_rms [m]", "order"],
                 &[&["1.0", "2.0", "3.0"], &["1.0", "4.0", "5.0"]],
             ),
-            text("all_detail_rows", &["x [m]"], &[&["1.0"]]),
         ];
         assert_eq!(tables(&[Section::new("all", "all", content)]), expected);
     }

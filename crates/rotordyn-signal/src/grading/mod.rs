@@ -23,17 +23,17 @@
 //! | fault | −20 to −12 dB | −12 to −8 dB | −8 to 10 dB | above 30 dB |
 //! |---|---|---|---|---|
 //! | outer race | 60, 49, 70, 32 (of 227) | 88, 76, 90, 73 (of 103) | 94, 92, 96, 83 (of 480) | 100, 98, 100, 94 (of 109) |
-//! | inner race | 57, 48, 71, 37 (of 222) | 92, 87, 93, 74 (of 114) | 97, 93, 99, 91 (of 460) | 97, 94, 99, 89 (of 122) |
-//! | ball | 54, 45, 56, 19 (of 214) | 88, 79, 89, 24 (of 107) | 98, 92, 99, 44 (of 486) | 100, 98, 100, 71 (of 111) |
-//! | cage | 63, 44, 74, 72 (of 192) | 95, 85, 98, 96 (of 106) | 99, 93, 99, 90 (of 507) | 99, 92, 99, 79 (of 112) |
+//! | inner race | 59, 47, 70, 37 (of 222) | 92, 87, 93, 74 (of 114) | 97, 93, 99, 91 (of 460) | 97, 94, 99, 89 (of 122) |
+//! | ball | 53, 43, 55, 19 (of 214) | 88, 81, 89, 24 (of 107) | 98, 93, 99, 44 (of 486) | 100, 99, 100, 71 (of 111) |
+//! | cage | 62, 44, 74, 72 (of 192) | 95, 85, 98, 96 (of 106) | 99, 93, 99, 90 (of 507) | 99, 92, 99, 79 (of 112) |
 //!
 //! Plain is a threshold on the envelope spectrum of the band of highest kurtosis. It names a part in 31 % of the 4000
 //! records without a fault (thirteen kinds of sources), this module in 1.6 %, at 95 % or above in 0.8 %: in 0.1 % of the
 //! 2565 without a bearing line in the window of the source's first twelve harmonics, in 2.0 % of the 1435 others. Of 328
-//! faults at varying speed 89 % are named, 84 % at 95 % or above; plain, which has no shaft angle, finds 38 %. Five of
+//! faults at varying speed 89 % are named, 84 % at 95 % or above; plain, which has no shaft angle, finds 38 %. Three of
 //! 4000 faults are given to a wrong part at 95 % or above. Of the diagnoses in both bands graded 50 to 70 %
-//! 54 % are right (of 120), 70 to 85 %: 78 % (of 153), 85 to 95 %: 92 % (of 287), 95 to 99 %: 97 % (of 768), above:
-//! 99 % (of 5313).
+//! 52 % are right (of 129), 70 to 85 %: 78 % (of 143), 85 to 95 %: 91 % (of 290), 95 to 99 %: 97 % (of 804), above:
+//! 99 % (of 5283).
 //!
 //! Plain conditions: 5 s at constant speed, one defect with slip, jitter and load zone, nothing beside it but noise and
 //! shaft lines. Of 400 faults of each part at −10 dB, of a seed that nothing was chosen on, in percent: named, graded 95 % or
