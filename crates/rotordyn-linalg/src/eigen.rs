@@ -11,7 +11,7 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 /// Eigenvalues and right eigenvectors (columns) of a general real matrix, in no given order.
 ///
 /// By faer; where its iteration does not converge, as in clusters of eigenvalues far from normal that damping β K makes at
-/// −1/β, by [`HessenbergForm`]; so are vectors that do not satisfy their equation, as faer's of nearly equal pairs.
+/// −1/β, by `HessenbergForm`; so are vectors that do not satisfy their equation, as faer's of nearly equal pairs.
 ///
 /// # Errors
 /// No convergence, or entries that are not finite.

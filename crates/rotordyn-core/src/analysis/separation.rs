@@ -69,7 +69,7 @@ impl Assessment {
 
 /// The margins of every pole of an unbalance response, by speed; without torsional and axial modes that it does not excite.
 ///
-/// A peak belongs to the nearest of the excited poles that can have it ([`can_have`]); of several peaks of a pole the one with the
+/// A peak belongs to the nearest of the excited poles that can have it (`can_have`); of several peaks of a pole the one with the
 /// largest AF counts, which requires the largest margin. `excited` says whether the unbalance excites a pole.
 pub fn separation_margins(
     poles: &[Pole],
