@@ -378,3 +378,28 @@ pub fn hermitian(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Result<(Vec<f64>, DMatri
     let vectors = DMatrix::from_fn(n, n, |i, j| kept[j].1[i]);
     Ok((kept.iter().map(|k| k.0).collect(), vectors))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The eigenvalues of both ways agree, and every vector satisfies its equation.
+    #[test]
+    fn the_hessenberg_form_has_the_eigenpairs_of_the_matrix() {
+        let mut seed = 7_u64;
+        let graded = DMatrix::from_fn(40, 40, |i, j| {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0) * 0.8_f64.powi((i + j) as i32 / 2)
+        });
+        let (mut expected, _) = general(&graded).unwrap();
+        let (values, vectors) = HessenbergForm::new(&graded).eigenpairs().unwrap();
+        for (value, vector) in values.iter().zip(vectors.column_iter()) {
+            let distance = |k: &usize| (expected[*k] - value).norm();
+            let nearest = (0..expected.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
+            assert!(distance(&nearest) < 1e-11 * graded.norm(), "{value}");
+            expected.swap_remove(nearest);
+            let rest = graded.map(Complex64::from) * vector - vector * *value;
+            assert!(rest.norm() < 1e-12 * graded.norm() * vector.norm(), "{value}: {:e}", rest.norm());
+        }
+    }
+}
