@@ -2351,8 +2351,8 @@ class Load(Part):
     ``factor`` (number: as many as time): Factor of the load at these times; the first holds from the start of
         the run, the last to its end: 0 where there is no load. Without it: required, with time. With time =
         "0, 0.1 s".
-    ``band`` (frequency: two, increasing, zero or greater): Frequencies between which the spectrum of a random
-        load is flat; force and moment are its RMS values.
+    ``band`` (frequency: two, increasing, zero or greater): A random load: flat spectrum from 5 % of the width
+        inside these frequencies, -6 dB at them; force and moment: RMS.
     ``seed`` (whole number, from 0 to 999999999): Random course of a load with a band: the same for equal
         seeds. Without it: one of its own, from the load's name. With band = "5, 500 Hz".
     """
