@@ -66,7 +66,7 @@ fn an_undamped_mode_is_infinite_at_its_critical_speed() {
 
 /// A response that ends below a critical speed whose margin counts does not show it, and says so.
 #[test]
-fn a_critical_speed_beside_the_response_is_named() {
+fn a_critical_speed_outside_the_response_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let run = "[speed]\nprofile = \"constant\"\nspeed = \"3000 rpm\"\nduration = \"1 s\"\n";
     let model = machine(folder.path(), "40 mm", "500 N s/m", run);
@@ -123,4 +123,36 @@ fn loads_at_a_speed_are_not_called_those_at_rest() {
     assert!(!text.contains("at rest"), "{text}");
     let text = output_of(&mut command("static", &model, &[]));
     assert!(text.contains("Shaft at rest: largest deflection and loads"), "{text}");
+}
+
+/// A probe's own quantity: at a circular frequency Ω a velocity is Ω, an acceleration Ω² times the displacement. The margins are
+/// those of displacements whatever the probes record.
+#[test]
+fn probes_give_their_own_quantity() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = "[speed]\nprofile = \"constant\"\nspeed = \"3000 rpm\"\nduration = \"1 s\"\n";
+    let probe = |name: &str, quantity: &str| {
+        format!("[probe.{name}]\nat = \"disc.d\"\ndirection = \"x\"\nquantity = \"{quantity}\"\n")
+    };
+    let [moved, all] = [
+        probe("u", "displacement"),
+        ["displacement", "velocity", "acceleration"].map(|of| probe(&of[..1], of)).concat(),
+    ];
+    let found = [moved, all].map(|probes| {
+        let model = machine(folder.path(), "40 mm", "500 N s/m", &format!("{run}{probes}"));
+        json_of(&mut command("unbalance", &model, &[]))["unbalance"].clone()
+    });
+    assert_eq!(found[0]["separation_margins"], found[1]["separation_margins"]);
+    let (speeds, responses) = (&found[1]["speeds_rpm"], &found[1]["responses"]);
+    let value = |response: usize, part: &str, k: usize| responses[response][part][k].as_f64().unwrap();
+    let units: Vec<&str> = (0..3).map(|k| responses[k]["unit"].as_str().unwrap()).collect();
+    assert_eq!(units, ["m", "m/s", "m/s^2"]);
+    for k in (1..speeds.as_array().unwrap().len()).step_by(17) {
+        let omega = speeds[k].as_f64().unwrap() * std::f64::consts::PI / 30.0;
+        let size = |response| value(response, "re", k).hypot(value(response, "im", k));
+        assert!((size(1) / (omega * size(0)) - 1.0).abs() < 1e-9, "{k}");
+        assert!((size(2) / (omega * omega * size(0)) - 1.0).abs() < 1e-9, "{k}");
+        // v = jΩ u
+        assert!((value(1, "re", k) + omega * value(0, "im", k)).abs() < 1e-9 * size(1), "{k}");
+    }
 }

@@ -124,6 +124,8 @@ cases! {
     overflow: changed("mass = \"1.5 kg\"", "mass = \"1e999 kg\"");
     overlapping_stations: changed("B = \"300 mm\"", "B = \"30.05 mm\"");
     station_off_the_shaft: changed("disc = \"380 mm\"", "disc = \"480 mm\"");
+    inverse_shear_coefficient: changed("element_length = \"20 mm\"", "element_length = \"20 mm\"\nshear = 1.11");
+    material_of_one_section: changed("material = \"steel\"\nelement_length = \"20 mm\"\nsection = [{ length = \"400 mm\", outer_diameter = \"25 mm\" }]", "element_length = \"20 mm\"\nsection = [{ length = \"200 mm\", outer_diameter = \"25 mm\", material = \"steel\" }, { length = \"200 mm\", outer_diameter = \"25 mm\" }]\n[material.brass]\nyoung = \"105 GPa\"\npoisson = 0.34\ndensity = \"8400 kg/m^3\"");
     section_gap: changed("outer_diameter = \"25 mm\" }", "outer_diameter = \"25 mm\" }, { from = \"41 cm\", to = \"50 cm\", outer_diameter = \"20 mm\" }");
     overlapping_balls: changed("clearance = \"C3\"", "clearance = \"C3\"\nballs = 16");
     narrow_groove: changed("clearance = \"C3\"", "clearance = \"C3\"\ninner_osculation = 0.49");

@@ -272,6 +272,30 @@ fn set_reaches_every_kind_of_path() {
     );
 }
 
+/// `[shaft]` needs no material and no element length where every section and layer has its own.
+#[test]
+fn sections_may_have_all_their_properties_themselves() {
+    let section = |young: &str, rest: &str| {
+        format!(
+            "[material.{young}]\nyoung = \"{young} GPa\"\npoisson = 0.3\ndensity = \"7850 kg/m^3\"\n[[shaft.{rest}]]\nlength = \"300 mm\"\nmaterial = \"{young}\"\nelement_length = \"100 mm\"\n"
+        )
+    };
+    let text = format!(
+        "[model]\nname = \"parts\"\n{}outer_diameter = \"25 mm\"\n{}outer_diameter = \"30 mm\"\n{}from = \"0 mm\"\n\
+         outer_diameter = \"40 mm\"\ninner_diameter = \"25 mm\"\n",
+        section("210", "section"),
+        section("70", "section"),
+        section("105", "layer")
+    );
+    let model = model::load("parts.toml", &text, &Options::default()).unwrap().model;
+    let moduli: Vec<f64> = model.shaft.iter().map(|element| element.material.young / 1e9).collect();
+    assert_eq!(moduli, [210.0, 210.0, 210.0, 70.0, 70.0, 70.0]);
+    assert_eq!(model.shaft[0].layers[0].material.young, 105e9);
+    let missing = text.replacen("material = \"70\"\n", "", 1);
+    let errors = model::load("parts.toml", &missing, &Options::default()).unwrap_err().to_string();
+    assert!(errors.contains("shaft.material is missing"), "{errors}");
+}
+
 #[test]
 fn variants_build_on_each_other_and_set_comes_last() {
     let text = r#"

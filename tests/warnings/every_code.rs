@@ -7,6 +7,7 @@ use crate::measured_codes;
 use crate::program;
 use crate::spoiled::{machine, replaced};
 use crate::study_codes;
+use crate::{codes, warnings_of};
 use rayon::prelude::*;
 use rotordyn::warning::Code;
 
@@ -72,6 +73,24 @@ const INPUT: &[Case] = &[
         // n d_m of the pitch diameter of 54 mm: 2.4e6 and 2.7e6 mm rpm.
         models(&of(45000.0), &of(50000.0))
     }),
+    (Code::CageSpeed, || {
+        // FTF of a 6205 is 0.398; with an outer ring that turns, 0.602.
+        ["cage = 0.602\n", "cage = 0.52\n"].map(|keys| {
+            let mut motor = machine("motor_small");
+            motor.bearings[0].2 += keys;
+            codes(&warnings_of(&motor.text())).into_iter().map(String::from).collect()
+        })
+    }),
+    (Code::OverlappingBearings, || {
+        let third = |distance: f64| {
+            let mut motor = machine("motor_small");
+            let (_, z, keys) = motor.bearings[0].clone();
+            motor.bearings.push(("C", z + distance, keys));
+            motor.text()
+        };
+        // A 6205 is 15 mm wide.
+        models(&third(15.0), &third(9.0))
+    }),
     (Code::BalanceQuality, || exchanged("two_discs_soft", "\"40 g mm\"", "\"40 kg mm\"")),
     (Code::UnusedItem, || {
         let brass =
@@ -99,6 +118,14 @@ const SUPPORTS: &[Case] = &[
         models(&two.text(), &two.text().replace("k_yy = \"5000000 N/m\"\n", ""))
     }),
     (Code::FreeAxialMotion, || exchanged("two_discs_soft", "k_zz = \"1e7 N/m\"\n", "")),
+    (Code::LargeDeflection, || {
+        let pulled = |force: &str| {
+            let mut two = machine("two_discs_soft");
+            two.more = format!("[load.pull]\nat = \"disc.one\"\nforce = \"0, {force}, 0 N\"\n");
+            two.text()
+        };
+        models(&pulled("-2000"), &pulled("-200000"))
+    }),
     (Code::BearingUnloaded, || {
         let mut vertical = machine("vertical_small");
         let bearing =

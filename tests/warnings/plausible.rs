@@ -108,3 +108,18 @@ fn a_vertical_rotor_on_clearance_is_told_that_its_bearings_carry_nothing() {
         assert!(motions.iter().any(|text| text.contains(motion)), "{motion}: {motions:?}");
     }
 }
+
+/// All six rigid-body motions of a shaft without supports are told apart, but for the rotation that a drive prescribes.
+#[test]
+fn the_motions_of_a_free_shaft_have_a_name_each() {
+    let mut two = crate::spoiled::machine("two_discs_soft");
+    two.bearings.clear();
+    two.gravity = "0 m/s^2";
+    let found = warnings_of(&two.text());
+    let motions: BTreeSet<&str> =
+        found.iter().filter(|w| w.code.name().starts_with("free-")).map(|w| w.text.as_str()).collect();
+    for motion in ["(u_x)", "(u_y)", "(u_z)", "tilting of the shaft (θ_x)", "tilting of the shaft (θ_y)"] {
+        assert!(motions.iter().any(|text| text.contains(motion)), "{motion}: {motions:?}");
+    }
+    assert_eq!(motions.len(), 5, "{motions:?}");
+}

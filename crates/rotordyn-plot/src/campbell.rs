@@ -110,6 +110,11 @@ pub struct OrderLine {
 }
 
 impl OrderLine {
+    /// Its frequency at a speed \[rpm\].
+    pub(super) fn hz(&self, rpm: f64) -> f64 {
+        self.order * rpm / 60.0
+    }
+
     pub(super) fn style(&self) -> Style {
         if self.bearing {
             Style::stroke(ORANGE, 1.0).dashed(Dash::DashDot)
@@ -212,19 +217,9 @@ fn mark_branch(svg: &mut Svg, axes: &Axes, branch: &Branch, values: &[f64]) {
 
 /// Order lines over axes of rpm and Hz; returns the labels of their ends.
 pub(super) fn order_lines(svg: &mut Svg, axes: &Axes, orders: &[OrderLine]) -> Vec<EndLabel> {
-    order_lines_at(svg, axes, orders, None)
-}
-
-/// As [`order_lines`]; over an axis of times at a constant speed \[rpm\].
-pub(super) fn order_lines_at(
-    svg: &mut Svg,
-    axes: &Axes,
-    orders: &[OrderLine],
-    constant: Option<f64>,
-) -> Vec<EndLabel> {
     let mut labels = Vec::new();
     for order in orders {
-        let line = order_line(axes, order, constant);
+        let line = order_line(axes, order);
         svg.polyline(&line, order.style());
         if let Some(&at) = line.last() {
             labels.push(EndLabel { at, text: order.label.clone(), color: order.color() });
@@ -233,11 +228,31 @@ pub(super) fn order_lines_at(
     labels
 }
 
-/// An order line inside the panel.
-fn order_line(axes: &Axes, order: &OrderLine, constant: Option<f64>) -> Vec<Point> {
-    let hz = |x: f64| order.order * constant.unwrap_or(x) / 60.0;
+/// An order line inside the panel, over axes of rpm and Hz.
+fn order_line(axes: &Axes, order: &OrderLine) -> Vec<Point> {
     let (a, b) = (axes.x.range.lo, axes.x.range.hi);
-    clip(&[axes.at(a, hz(a)), axes.at(b, hz(b))], axes.frame)
+    clip(&[axes.at(a, order.hz(a)), axes.at(b, order.hz(b))], axes.frame)
+}
+
+/// Order lines over axes of time and Hz, along the speeds \[rpm\] at some times; returns labels at their highest points.
+pub(super) fn order_lines_over_time(
+    svg: &mut Svg,
+    axes: &Axes,
+    orders: &[OrderLine],
+    [times, rpm]: [&[f64]; 2],
+) -> Vec<EndLabel> {
+    let mut labels = Vec::new();
+    for order in orders {
+        let points: Vec<Point> = times.iter().zip(rpm).map(|(t, rpm)| axes.at(*t, order.hz(*rpm))).collect();
+        let line = clip(&points, axes.frame);
+        svg.polyline(&line, order.style());
+        let highest = line.iter().map(|point| point[1]).filter(|y| y.is_finite()).min_by(f64::total_cmp);
+        if let Some(y) = highest {
+            let at = [axes.frame.right(), y];
+            labels.push(EndLabel { at, text: order.label.clone(), color: order.color() });
+        }
+    }
+    labels
 }
 
 /// Labels where the branches leave the panel.
@@ -271,7 +286,7 @@ fn criticals(svg: &mut Svg, axes: &Axes, data: &Campbell) {
         obstacles.add_line(&clip(&points, axes.frame), 4.0);
     }
     for order in &data.orders {
-        obstacles.add_line(&order_line(axes, order, None), 1.0);
+        obstacles.add_line(&order_line(axes, order), 1.0);
     }
     for (at, label) in &marks {
         Marker::Circle.draw(svg, *at, CRITICAL);

@@ -2,9 +2,9 @@
 
 use super::axes::{Axes, Frame};
 use super::campbell::OrderLine;
-use super::constant_speed::{constant_speed, note_with_speed};
 use super::heat::{self, COLOR_BAR_WIDTH, color_bar};
 use super::labels::{EndLabel, end_label_width, end_labels, page_heading};
+use super::over_time::OverTime;
 use super::scale::{Range, widened};
 use super::style::*;
 use super::svg::Svg;
@@ -15,7 +15,8 @@ use rotordyn_core::series::{Series, SeriesError};
 pub struct OrderMap {
     pub title: String,
     pub note: String,
-    /// Shaft speed of each order spectrum \[rpm\], and its time \[s\], over which it is drawn if the speed is constant.
+    /// Shaft speed of each order spectrum \[rpm\], and its time \[s\], over which it is drawn if the speed is constant,
+    /// or rises and falls.
     pub rpm: Vec<f64>,
     pub time: Vec<f64>,
     /// Orders \[events per revolution\].
@@ -36,8 +37,8 @@ pub struct OrderMap {
 /// # Errors
 /// Levels that cannot be read.
 pub fn draw(data: &OrderMap) -> Result<Svg, SeriesError> {
-    let constant = constant_speed(std::iter::once([&data.rpm[..], &data.time]));
-    let note = note_with_speed(&data.note, constant);
+    let over_time = OverTime::of(std::iter::once([&data.rpm[..], &data.time]));
+    let note = OverTime::note(over_time, &data.note);
     let (mut svg, top) = page_heading(WIDTH, LEFT, &data.title, &note, &[]);
     let room = end_label_width(data.orders.iter().map(|o| o.label.clone()));
     let frame = Frame { x: LEFT, y: top + 4.0, w: WIDTH - LEFT - room - COLOR_BAR_WIDTH, h: 420.0 };
@@ -45,7 +46,7 @@ pub fn draw(data: &OrderMap) -> Result<Svg, SeriesError> {
         Some(order) => Range::new(0.0, order),
         None => Range::of(data.order.iter().copied()).near_zero(),
     };
-    let (places, x, name, unit) = match constant {
+    let (places, x, name, unit) = match over_time {
         Some(_) => (&data.time, Range::of(data.time.iter().copied()), "time", "s"),
         None => (&data.rpm, Range::of(data.rpm.iter().copied()).near_zero(), "shaft speed", "rpm"),
     };

@@ -2,10 +2,10 @@
 //! frequencies.
 
 use super::axes::Axes;
-use super::campbell::{Branch, OrderLine, branch_ends, order_lines_at};
-use super::constant_speed::{constant_speed, note_with_speed};
+use super::campbell::{Branch, OrderLine, branch_ends, order_lines, order_lines_over_time};
 use super::heat::{self, COLOR_BAR_WIDTH, color_bar};
 use super::labels::{Entry, end_label_width, end_labels, page_heading};
+use super::over_time::OverTime;
 use super::panel_row::PanelRow;
 use super::scale::{Range, widened};
 use super::style::*;
@@ -18,7 +18,8 @@ use rotordyn_linalg::piecewise_within;
 pub struct SpectrogramPanel {
     /// Panel name, shown if there are several, e.g. "measured".
     pub name: String,
-    /// Shaft speed of each spectrum \[rpm\], and its time \[s\], over which it is drawn if the speed is constant.
+    /// Shaft speed of each spectrum \[rpm\], and its time \[s\], over which it is drawn if the speed is constant,
+    /// or rises and falls.
     pub rpm: Vec<f64>,
     pub time: Vec<f64>,
     /// Frequencies \[Hz\].
@@ -72,15 +73,15 @@ pub fn draw(data: &Spectrogram) -> Result<Svg, SeriesError> {
     let room = end_label_width(names.cloned());
     let row = PanelRow::new(data.panels.len(), WIDTH - LEFT - room - COLOR_BAR_WIDTH);
     let page = LEFT + row.width() + room + COLOR_BAR_WIDTH;
-    let constant = constant_speed(data.panels.iter().map(|p| [&p.rpm[..], &p.time]));
-    let note = note_with_speed(&data.note, constant);
+    let over_time = OverTime::of(data.panels.iter().map(|p| [&p.rpm[..], &p.time]));
+    let note = OverTime::note(over_time, &data.note);
     let (mut svg, top) = page_heading(page, LEFT, &data.title, &note, &kinds);
     let all_values = |of: fn(&SpectrogramPanel) -> &[f64]| data.panels.iter().flat_map(of).copied();
     let y = match data.max_hz.filter(|hz| hz.is_finite() && *hz > 0.0) {
         Some(hz) => Range::new(0.0, hz),
         None => Range::of(all_values(|p| &p.hz)).near_zero(),
     };
-    let x = match constant {
+    let x = match over_time {
         Some(_) => Range::of(all_values(|p| &p.time)),
         None => Range::of(all_values(|p| &p.rpm)).near_zero(),
     };
@@ -92,24 +93,31 @@ pub fn draw(data: &Spectrogram) -> Result<Svg, SeriesError> {
     for k in 0..count {
         let axes = Axes::linear(row.frame(k, top + 16.0, 420.0), x, y);
         let panel = data.panels.get(k).unwrap_or(&none);
-        let places = if constant.is_some() { &panel.time } else { &panel.rpm };
+        let places = if over_time.is_some() { &panel.time } else { &panel.rpm };
         heat::draw_rows(&mut svg, &axes, bounds, [places, &panel.hz], &panel.level_db)?;
+        // Speeds along the axis of an order line.
+        let ends = [x.lo, x.hi];
+        let course = if over_time.is_some() { [&panel.time[..], &panel.rpm] } else { [&ends[..], &ends] };
         // A pale edge keeps the dashes visible on dark levels.
         for order in panel.orders(data) {
-            let at = |x: f64| [x, order.order * constant.unwrap_or(x) / 60.0];
-            axes.segment(&mut svg, at(x.lo), at(x.hi), Style::stroke(WHITE, 2.0).faint(0.45));
+            let hz: Vec<f64> = course[1].iter().map(|rpm| order.hz(*rpm)).collect();
+            axes.curve(&mut svg, course[0], &hz, Style::stroke(WHITE, 2.0).faint(0.45));
         }
-        let mut labels = order_lines_at(&mut svg, &axes, panel.orders(data), constant);
-        let at_speed: Vec<Branch> =
-            panel.branches(data).iter().filter_map(|b| level_branch(b, constant?, x)).collect();
-        let branches = if constant.is_some() { &at_speed } else { panel.branches(data) };
-        for branch in branches {
+        let (mut labels, branches) = match over_time {
+            Some(_) => {
+                let along = |branch: &Branch| branch_over_time(branch, course);
+                let labels = order_lines_over_time(&mut svg, &axes, panel.orders(data), course);
+                (labels, panel.branches(data).iter().filter_map(along).collect())
+            }
+            None => (order_lines(&mut svg, &axes, panel.orders(data)), panel.branches(data).to_vec()),
+        };
+        for branch in &branches {
             // A white edge separates the thin line from the ridge below.
             axes.curve(&mut svg, &branch.rpm, &branch.hz, Style::stroke(WHITE, 2.6).faint(0.75));
             branch.curves(&mut svg, &axes, &branch.hz, |whirl| Style::stroke(whirl.color(), 1.1));
         }
-        labels.extend(branch_ends(&axes, branches));
-        let below = if constant.is_some() { ("time", "s") } else { ("shaft speed", "rpm") };
+        labels.extend(branch_ends(&axes, &branches));
+        let below = if over_time.is_some() { ("time", "s") } else { ("shaft speed", "rpm") };
         row.border(&mut svg, &axes, k, below, ("frequency", "Hz"));
         row.name(&mut svg, axes.frame, &panel.name);
         if row.ends_row(k) {
@@ -123,16 +131,18 @@ pub fn draw(data: &Spectrogram) -> Result<Svg, SeriesError> {
     Ok(svg)
 }
 
-/// A branch at one speed, drawn over a range of times; `None` where it is not known at that speed.
-fn level_branch(branch: &Branch, rpm: f64, over: Range) -> Option<Branch> {
+/// A branch along the speeds \[rpm\] at some times, with times in place of its speeds; `None` where it is known at none of them.
+fn branch_over_time(branch: &Branch, [times, rpm]: [&[f64]; 2]) -> Option<Branch> {
     let points: Vec<[f64; 2]> = branch.rpm.iter().zip(&branch.hz).map(|(x, y)| [*x, *y]).collect();
-    let [_, hz] = piecewise_within(&points, rpm)?;
-    let at = branch.rpm.partition_point(|x| *x < rpm).min(branch.whirl.len().checked_sub(1)?);
-    Some(Branch {
+    let last = branch.whirl.len().checked_sub(1)?;
+    let hz: Vec<f64> =
+        rpm.iter().map(|rpm| piecewise_within(&points, *rpm).map_or(f64::NAN, |[_, hz]| hz)).collect();
+    let whirl_at = |rpm: &f64| branch.whirl[branch.rpm.partition_point(|x| x < rpm).min(last)];
+    hz.iter().any(|hz| hz.is_finite()).then(|| Branch {
         label: branch.label.clone(),
-        whirl: vec![branch.whirl[at]; 2],
-        rpm: vec![over.lo, over.hi],
-        hz: vec![hz; 2],
+        whirl: rpm.iter().map(whirl_at).collect(),
+        rpm: times.to_vec(),
+        hz,
         log_decrement: Vec::new(),
     })
 }

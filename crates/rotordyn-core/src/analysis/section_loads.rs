@@ -115,14 +115,36 @@ impl ShaftSections {
 /// layer with the largest one, √(M_xz² + M_yz²) E d/(2 Σ E_k I_k).
 pub fn bending_stress(model: &Model, section: &SectionLoad) -> f64 {
     let (element, end) = (&model.shaft[section.element], section.node - section.element);
-    let second_moment =
-        |e: &ShaftElement| PI / 64.0 * (e.outer_diameter[end].powi(4) - e.inner_diameter[end].powi(4));
-    let [x, y] = section.moment.map(|moment| moment.norm());
-    let moment = x.hypot(y);
     if element.layers.is_empty() {
-        return 0.5 * element.outer_diameter[end] * moment / second_moment(element);
+        return 0.5 * element.outer_diameter[end] * resultant(section) / second_moment(element, end);
     }
-    let rigidity: f64 = element.with_layers().map(|e| e.material.young * second_moment(e)).sum();
-    let stress = |e: &ShaftElement| 0.5 * e.outer_diameter[end] * moment * e.material.young / rigidity;
+    let curvature = curvature(model, section);
+    let stress = |e: &ShaftElement| 0.5 * e.outer_diameter[end] * curvature * e.material.young;
     element.with_layers().map(stress).fold(0.0, f64::max)
+}
+
+/// Largest bending strain √(M_xz² + M_yz²) d/(2 Σ E_k I_k) in a section of an element; 0 where nothing resists bending.
+pub fn bending_strain(model: &Model, section: &SectionLoad) -> f64 {
+    let (element, end) = (&model.shaft[section.element], section.node - section.element);
+    let outer = element.with_layers().map(|e| e.outer_diameter[end]).fold(0.0, f64::max);
+    let strain = 0.5 * outer * curvature(model, section);
+    if strain.is_finite() { strain } else { 0.0 }
+}
+
+/// √(M_xz² + M_yz²)/(Σ E_k I_k) \[1/m\].
+fn curvature(model: &Model, section: &SectionLoad) -> f64 {
+    let (element, end) = (&model.shaft[section.element], section.node - section.element);
+    let rigidity: f64 = element.with_layers().map(|e| e.material.young * second_moment(e, end)).sum();
+    resultant(section) / rigidity
+}
+
+/// √(M_xz² + M_yz²) \[N m\].
+fn resultant(section: &SectionLoad) -> f64 {
+    let [x, y] = section.moment.map(|moment| moment.norm());
+    x.hypot(y)
+}
+
+/// Second moment of area at an end of an element \[m⁴\].
+fn second_moment(element: &ShaftElement, end: usize) -> f64 {
+    PI / 64.0 * (element.outer_diameter[end].powi(4) - element.inner_diameter[end].powi(4))
 }

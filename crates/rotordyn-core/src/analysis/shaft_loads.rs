@@ -1,6 +1,6 @@
 //! Deflection, shear force and bending moment along the shaft: at rest, and their amplitudes under unbalance.
 
-use super::section_loads::{SectionLoad, ShaftSections, bending_stress};
+use super::section_loads::{SectionLoad, ShaftSections, bending_strain, bending_stress};
 use super::unbalance::Orbit;
 use crate::document::{Document, Rows, TO_RPM, in_hdf5, in_json, named, quantity};
 use crate::model::Model;
@@ -37,6 +37,11 @@ pub struct ShaftAmplitude {
     pub shear: f64,
     /// Bending moment \[N m\].
     pub moment: f64,
+    /// Rotation of the section about an axis across the shaft \[rad\], and largest bending strain.
+    #[serde(default)]
+    pub slope: f64,
+    #[serde(default)]
+    pub strain: f64,
 }
 
 /// Loads of the shaft under unbalance at one speed.
@@ -75,6 +80,8 @@ pub fn under_unbalance(
         displacement: major([q[6 * section.node], q[6 * section.node + 1]]),
         shear: major(section.shear),
         moment: largest_moment(section),
+        slope: major([q[6 * section.node + 3], q[6 * section.node + 4]]),
+        strain: bending_strain(model, section),
     };
     shaft.at_speed(q, speed).iter().map(point).collect()
 }

@@ -178,7 +178,8 @@ fn orthonormalise(mass: &SparseMatrix, basis: &mut Vec<Vec<f64>>) {
 }
 
 /// Names as many motions as there are shapes: body and direction by their kinetic energy in all shapes together, which no
-/// combination of modes of the same frequency changes.
+/// combination of modes of the same frequency changes. Of the shaft's lateral energy only that of its centre of mass is
+/// translation, the rest is tilting.
 fn describe(assembly: &Assembly, shapes: &[Vec<f64>]) -> Vec<String> {
     /// Share of the energy in a direction from which on the shaft takes part, and its bodies with it.
     const SHAFT_MOVES: f64 = 1e-3;
@@ -186,6 +187,11 @@ fn describe(assembly: &Assembly, shapes: &[Vec<f64>]) -> Vec<String> {
     // Shaft as one body, then every other body, six directions each.
     let bodies = dofs.node_names.len() - dofs.shaft_nodes;
     let mut energy = vec![[0.0; 6]; 1 + bodies];
+    let shaft = |direction: usize| (0..dofs.shaft_nodes).map(move |node| 6 * node + direction);
+    let mut translation = vec![0.0; 6 * dofs.node_names.len()];
+    shaft(0).for_each(|i| translation[i] = 1.0);
+    let momentum = assembly.full_mass.mul(&translation);
+    let shaft_mass: f64 = shaft(0).map(|i| momentum[i]).sum();
     for shape in shapes {
         let full = dofs.expand(shape);
         let momentum = assembly.full_mass.mul(&full);
@@ -193,6 +199,13 @@ fn describe(assembly: &Assembly, shapes: &[Vec<f64>]) -> Vec<String> {
             let node = i / 6;
             let owner = if node < dofs.shaft_nodes { 0 } else { node - dofs.shaft_nodes + 1 };
             energy[owner][i % 6] += q * p;
+        }
+        for (lateral, tilt) in [(0, 4), (1, 3)] {
+            let total: f64 = shaft(lateral).map(|i| full[i] * momentum[i]).sum();
+            let along: f64 = shaft(lateral).map(|i| momentum[i]).sum();
+            let of_centre = if shaft_mass > 0.0 { along * along / shaft_mass } else { total };
+            energy[0][lateral] -= total - of_centre;
+            energy[0][tilt] += total - of_centre;
         }
     }
     let mut motions: Vec<(f64, usize, usize)> = Vec::new();

@@ -195,15 +195,15 @@ impl Machine {
             let values = with_infinite(&speeds, values, &undamped, name);
             values.iter().map(|v| [v.re, v.im]).collect()
         };
-        let channels: Vec<UnbalanceChannel> = study
-            .responses
-            .iter()
-            .enumerate()
-            .map(|(row, probe)| {
+        let channels_of = |quantity: Option<Quantity>| -> Vec<UnbalanceChannel> {
+            let channel = |(row, probe): (usize, &Probe)| {
+                let probe = Probe { quantity: quantity.unwrap_or(probe.quantity), ..probe.clone() };
                 let amplitude = plain(&probe.name, along(row, probe.quantity));
-                UnbalanceChannel { probe: probe.clone(), amplitude }
-            })
-            .collect();
+                UnbalanceChannel { probe, amplitude }
+            };
+            study.responses.iter().enumerate().map(channel).collect()
+        };
+        let channels = channels_of(None);
         let orbits: Vec<DiscOrbit> = discs
             .iter()
             .enumerate()
@@ -216,7 +216,12 @@ impl Machine {
         let peaks = response_peaks(&speeds, &channels, &orbits, &undamped);
         let operating_speeds = self.operating_speeds(study);
         let excited = |pole: &Pole| pole.is_excited_by(&self.assembly.unbalance_amplitude(pole.at));
-        let named: Vec<_> = peaks.iter().map(|peak| (peak.response.clone(), peak.peak)).collect();
+        // Margins are those of displacements: a derivative's factor of speed widens its peaks to one side.
+        let displacements = channels_of(Some(Quantity::Displacement));
+        let named: Vec<_> = response_peaks(&speeds, &displacements, &orbits, &undamped)
+            .into_iter()
+            .map(|peak| (peak.response, peak.peak))
+            .collect();
         let within: Vec<Pole> =
             poles.into_iter().filter(|pole| (range[0]..=range[1]).contains(&pole.at)).collect();
         Ok(UnbalanceResult {

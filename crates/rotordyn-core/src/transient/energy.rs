@@ -78,6 +78,8 @@ pub struct EnergyBalance {
     v: DVector<f64>,
     /// Parametric and contact-loss power at the last state.
     powers: [f64; 2],
+    /// First step of a pair of steps: its length \[s\] and the powers before it.
+    first_of_pair: Option<(f64, [f64; 2])>,
     /// Displacements and velocities of the interfaces there.
     d: Vec<f64>,
     d_rate: Vec<f64>,
@@ -101,6 +103,7 @@ impl EnergyBalance {
             x: state.x.clone(),
             v: state.v.clone(),
             powers: powers(system, state),
+            first_of_pair: None,
             d: state.d.clone(),
             d_rate: state.d_rate.clone(),
             body_work: system.body_work(state),
@@ -123,7 +126,8 @@ impl EnergyBalance {
             && self.rotation.is_some() == system.drive.is_some()
     }
 
-    /// Adds one step: work of the mean load along the step's displacement, powers by the trapezoidal rule.
+    /// Adds one step: work of the mean load along the step's displacement, powers by the trapezoidal rule and every second step by
+    /// that of Simpson for both.
     pub fn update(&mut self, system: &System, state: &State) {
         with_widest_vectors(
             #[inline(always)]
@@ -164,6 +168,18 @@ impl EnergyBalance {
         e.parametric += 0.5 * step * (self.powers[0] + now[0]);
         e.parametric += energy_by_speed_change(system, state, &self.rotations);
         e.contact_loss += 0.5 * step * (self.powers[1] + now[1]);
+        // Where a power jumps there is no parabola through it.
+        self.first_of_pair = match self.first_of_pair {
+            _ if at_defects != [0.0; 2] => None,
+            None => Some((step, self.powers)),
+            Some((first, before)) => {
+                let by_parabola =
+                    |k: usize| beyond_trapezoids([first, step], [before[k], self.powers[k], now[k]]);
+                e.parametric += by_parabola(0);
+                e.contact_loss += by_parabola(1);
+                None
+            }
+        };
         e.parametric += step * at_defects[0];
         e.contact_loss += step * at_defects[1];
         self.powers = now;
@@ -269,6 +285,7 @@ impl EnergyBalance {
 
     /// Continues from a state whose coordinates were changed between steps (recentring of a torque drive).
     pub fn restart_from(&mut self, system: &System, state: &State) {
+        self.first_of_pair = None;
         self.factors[0].clear();
         self.factors[0].extend(factors(system, state));
         self.x.copy_from(&state.x);
@@ -292,6 +309,16 @@ impl EnergyBalance {
         e.strain = 0.5 * dot_in_sixteens(pull, x);
         e.contact = state.reactions.iter().map(|r| r.elastic_energy).sum();
     }
+}
+
+/// What the integral of the parabola through three powers, h₀ and h₁ apart, has beyond the trapezoids: −(h₀³ + h₁³)/12 p″; 0 for
+/// lengths too different for a parabola.
+fn beyond_trapezoids([h0, h1]: [f64; 2], [p0, p1, p2]: [f64; 3]) -> f64 {
+    if !(0.5..=2.0).contains(&(h1 / h0)) {
+        return 0.0;
+    }
+    let second_derivative = 2.0 * ((p2 - p1) / h1 - (p1 - p0) / h0) / (h0 + h1);
+    -second_derivative * (h0.powi(3) + h1.powi(3)) / 12.0
 }
 
 fn powers(system: &System, state: &State) -> [f64; 2] {
@@ -323,4 +350,23 @@ fn energy_by_speed_change(system: &System, state: &State, before: &[Rotation]) -
 /// Factors of the loads that do work.
 fn factors(system: &System, state: &State) -> impl Iterator<Item = f64> {
     system.working_terms(state.time, &state.spin).map(|(factor, _)| factor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::beyond_trapezoids;
+
+    /// Trapezoids and what the parabola has beyond them give the integral of any parabola.
+    #[test]
+    fn the_integral_of_a_parabola_is_exact() {
+        let power = |t: f64| 3.0 - 2.0 * t + 5.0 * t * t;
+        let integral = |t: f64| 3.0 * t - t * t + 5.0 * t.powi(3) / 3.0;
+        for [h0, h1] in [[0.4, 0.4], [0.3, 0.5], [0.5, 0.3]] {
+            let [p0, p1, p2] = [0.0, h0, h0 + h1].map(power);
+            let trapezoids = 0.5 * (h0 * (p0 + p1) + h1 * (p1 + p2));
+            let found = trapezoids + beyond_trapezoids([h0, h1], [p0, p1, p2]);
+            assert!((found - integral(h0 + h1)).abs() < 1e-12, "{h0} {h1}: {found}");
+        }
+        assert_eq!(beyond_trapezoids([1.0, 0.1], [1.0, 0.0, 1.0]), 0.0);
+    }
 }

@@ -82,6 +82,13 @@ codes! {
         "The unbalance of the rotor over its mass, times the highest speed, is above 100 mm/s: worse than the grade \
          G 100 of ISO 21940-11, which no machine on rolling bearings is delivered with.",
         "check the unit of the unbalance: 1 g mm is 1e-6 kg m";
+    CageSpeed, "cage-speed", Caution,
+        "The stated speed of a cage is not that of a cage that its balls carry along: these roll on both races, at half the shaft \
+         speed at most on an outer ring at rest.",
+        "check the ratio: cage speed over shaft speed, FTF in orders; or leave `cage` out, which takes that of rolling balls";
+    OverlappingBearings, "overlapping-bearings", Serious,
+        "Two ball bearings occupy the same length of the shaft: usually one bearing given twice, or a wrong station.",
+        "check the stations; one bearing with arrangement describes a pair";
     UnusedItem, "unused-item", Caution,
         "A material, lubricant or other item of the file is used by nothing: often a misspelt name elsewhere.",
         "remove it, or refer to it where it was meant";
@@ -163,6 +170,10 @@ codes! {
     TableRange, "table-range", Caution,
         "A study needs speeds beyond the table of a bearing or motor; the last value holds there.",
         "extend the table, or refuse such speeds with beyond_table = \"refuse\"";
+    LargeDeflection, "large-deflection", Caution,
+        "The shaft bends so far that linear theory of beams does not hold: sections rotate by more than 0.1 rad, or bending strains \
+         exceed 0.5 %, 1 GPa in steel.",
+        "check loads, diameters and units; of an unbalance response also its damping and the unbalance";
     BeltPull, "belt-pull", Serious,
         "A belt loses much of its stated pull at equilibrium, or goes slack: a belt cannot push.",
         "if the stated pull is that of the machine at rest, set constant_pull = true";
@@ -184,7 +195,7 @@ codes! {
          above 50000) that the height of its peak says nothing.",
         "state damping: [damping] modal, or damping of supports";
     MarginRange, "margin-range", Caution,
-        "A critical speed lies so near the operating speeds that API 617 may ask for more distance, but beside the speeds of the \
+        "A critical speed lies so near the operating speeds that API 617 may ask for more distance, but outside the speeds of the \
          unbalance response: the table of separation margins does not have it.",
         "extend the speeds of the response to it: --max-speed, study.unbalance.speeds; from 16 % below the operating speeds to \
          26 % above them none is missed";

@@ -1,14 +1,14 @@
 //! Input that is valid but rarely meant: values off by a power of ten, parts in each other's place, items without use.
 
-use super::ball_keys::states_bore;
+use super::ball_keys::{BALL, states_bore};
 use super::{bearing, inertia, loading, shaft};
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{Key, NamedTables, Quantity};
 use crate::file::reader::Reader;
 use crate::file::tree::{Table, Value};
 use crate::{BearingSite, Model};
-use rotordyn_bearing::Bearing;
 use rotordyn_bearing::rating::limit_checks::{speed_limit, speed_parameter};
+use rotordyn_bearing::{Bearing, Cage};
 use rotordyn_core::element::{Anchor, Disc, Material};
 use rotordyn_core::warning::Code;
 use std::collections::HashSet;
@@ -46,6 +46,8 @@ pub(super) fn check(top: &Reader, model: &Model, materials: (&Key<NamedTables>, 
     discs(top, model);
     single_bearing(top, model);
     bearing_speeds(top, model);
+    cage_speeds(top, model);
+    overlapping_bearings(top, model);
     balance_quality(top, model);
 }
 
@@ -257,6 +259,56 @@ fn bearing_speeds(top: &Reader, model: &Model) {
                 .hint("check the unit of the speed, or choose a smaller or a spindle bearing");
             top.log.warn(Code::BearingSpeed, format!("bearing.{}", site.name), problem);
         }
+    }
+}
+
+/// Stated cage speeds against those of rolling balls at the nominal contact angle. Balls that slip make a cage slower; at larger
+/// contact angles it is faster, up to half the shaft speed. On an outer ring that turns with the shaft about an inner one at rest it
+/// turns at one less the ratio.
+fn cage_speeds(top: &Reader, model: &Model) {
+    /// Slip that only a bearing without load reaches.
+    const LOWEST: f64 = 0.5;
+    /// Difference from the ratio of a bearing whose outer ring turns.
+    const OUTER_RING: f64 = 0.02;
+    for site in &model.bearings {
+        let Some(ball) = site.bearing.ball() else { continue };
+        let Cage::Ratio(ratio) = ball.cage else { continue };
+        let g = &ball.geometry;
+        let rolling = 0.5 * (1.0 - g.ball_diameter / g.pitch_diameter * g.contact_angle.cos());
+        let with_outer_ring = (ratio - (1.0 - rolling)).abs() < OUTER_RING;
+        if ratio == 0.0 || (LOWEST * rolling..=0.5).contains(&ratio) || with_outer_ring {
+            continue;
+        }
+        let message = format!(
+            "bearing.{}: the cage turns at {ratio} of the shaft speed, where rolling balls carry it at {rolling:.4}",
+            site.name
+        );
+        let span = top.item(&bearing::TOP.bearing, &site.name).map_or(0..0, |r| r.span_of(&BALL.cage));
+        let problem = Problem::new(Kind::OutOfRange, &span, message)
+            .hint("cage is the speed of the cage over that of the shaft; without it balls are taken to roll");
+        top.log.warn(Code::CageSpeed, format!("bearing.{}", site.name), problem);
+    }
+}
+
+/// Ball bearings in each other's place.
+fn overlapping_bearings(top: &Reader, model: &Model) {
+    let widths: Vec<(&BearingSite, f64)> = model
+        .bearings
+        .iter()
+        .filter_map(|site| Some((site, site.bearing.ball()?.geometry.width)))
+        .filter(|(_, width)| *width > 0.0)
+        .collect();
+    for (k, (site, width)) in widths.iter().enumerate() {
+        let overlap = |(other, other_width): &&(&BearingSite, f64)| {
+            let distance = (model.node_z[site.node] - model.node_z[other.node]).abs();
+            distance < 0.5 * (width + other_width) - OVERLAP * width.min(*other_width)
+        };
+        let Some((other, _)) = widths[..k].iter().find(overlap) else { continue };
+        let message = format!("bearing.{} and bearing.{} are in the same place", other.name, site.name);
+        let span = item_span(top, &bearing::TOP.bearing, &site.name);
+        let problem = Problem::new(Kind::Geometry, &span, message)
+            .hint("check their stations; one bearing with `arrangement` describes a matched pair");
+        top.log.warn(Code::OverlappingBearings, format!("bearing.{}", site.name), problem);
     }
 }
 

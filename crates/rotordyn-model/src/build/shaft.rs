@@ -4,11 +4,11 @@ use super::material;
 use crate::Station;
 use crate::file::diagnostic::{Kind, Problem};
 use crate::file::key::{
-    Flag, Group, Key, NamedQuantities, Quantity, SubTable, Table, TableList, Text, Words, any, flag, keys,
-    named_quantities, not_negative, positive, quantity, sub_table, table_list, text, words,
+    Declared, Flag, Group, Key, NamedQuantities, Quantity, SubTable, Table, TableList, Text, Words, any,
+    flag, keys, named_quantities, not_negative, positive, quantity, sub_table, table_list, text, words,
 };
 use crate::file::reader::{Reader, missing_table_problem};
-use crate::file::tree::Value;
+use crate::file::tree::{Node, Value};
 use rotordyn_core::document::number;
 use rotordyn_core::element::{Disc, Material, ShaftElement, ShearCoefficient};
 use rotordyn_units::{FORCE, LENGTH, MOMENT, NUMBER, RATE, TIME};
@@ -207,17 +207,46 @@ pub(super) fn read(top: &Reader, materials: &[Material]) -> MeshedShaft {
     mesh(top, [&sections, &layers], stations, spacing)
 }
 
+/// The coefficient κ of the shear stiffness κ G A; some programs take its inverse.
+fn shear_coefficient(r: &Reader) -> Option<f64> {
+    let value = r.get(&PROPERTY.shear_coefficient)?;
+    if value > 1.0 {
+        let key = &PROPERTY.shear_coefficient;
+        let problem = Problem::new(Kind::OutOfRange, &r.span_of(key), format!("{} is above 1", r.name(key)))
+            .expected("above 0, at most 1; 0.9 for a solid shaft, 0.5 for a thin tube");
+        let inverse = number(1.0 / value, 4);
+        r.log.error(problem.hint(format!(
+            "the shear stiffness of a section is coefficient x G A; of a program that divides by it, take the inverse, {inverse}"
+        )));
+        return None;
+    }
+    Some(value)
+}
+
+/// Whether `[shaft]` leaves a key to its sections and layers, each of which has its own.
+fn every_part_has(shaft: &Reader, key: &dyn Declared) -> bool {
+    let has = |node: &Node| matches!(&node.value, Value::Table(part) if part.get(key.name()).is_some());
+    let all_have = |list: &Key<TableList>| match shaft.entry(list).map(|entry| &entry.node) {
+        Some(Node { value: Value::List(parts), .. }) => parts.iter().all(has),
+        Some(node) => has(node),
+        None => true,
+    };
+    !shaft.has(key) && shaft.has(&SHAFT.section) && all_have(&SHAFT.section) && all_have(&SHAFT.layer)
+}
+
 fn properties(r: &Reader, common: Option<&Properties>, materials: &[Material]) -> Properties {
     let material = match common {
         Some(c) if !r.has(&PROPERTY.material) => c.material.clone(),
+        None if every_part_has(r, &PROPERTY.material) => None,
         _ => material(r, &PROPERTY.material, materials),
     };
     let shear = match r.entry(&PROPERTY.shear).map(|e| &e.node.value) {
         Some(Value::Text(_)) => r.choice(&PROPERTY.shear),
-        Some(_) => r.get(&PROPERTY.shear_coefficient).map(ShearCoefficient::Value),
+        Some(_) => shear_coefficient(r).map(ShearCoefficient::Value),
         None => None,
     };
     let element_length = match common {
+        None if every_part_has(r, &PROPERTY.element_length) => f64::INFINITY,
         None => r.value(&PROPERTY.element_length),
         Some(c) => r.or(&PROPERTY.element_length, c.element_length),
     };

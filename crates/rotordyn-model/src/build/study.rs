@@ -130,7 +130,7 @@ keys! {
         responses: Texts = texts("names of probes", "Points of the response.").computed("every probe")
             .example("[\"disc_x\"]");
         response_quantity: Words<MotionQuantity> = words(&QUANTITIES, "Quantity of the response.")
-            .computed("by quantity; displacement of an unbalance response");
+            .computed("by quantity; that of each probe for an unbalance response");
     }
 }
 
@@ -184,7 +184,7 @@ pub(super) fn read(top: &Reader, model: &Model, places: &Places) -> Studies {
         r.finish();
     }
     if let Some(r) = all.table(&STUDY.unbalance) {
-        let responses = responses(&r, model, MotionQuantity::Displacement);
+        let responses = responses(&r, model, None);
         let speeds = speeds(&r, &UNBALANCE.speeds, &default_ranges::unbalance(model));
         let refine = r.flag(&UNBALANCE.refine);
         let operating_speeds = rotor_studies::operating_speeds(&r, &UNBALANCE.operating_speeds);
@@ -279,16 +279,23 @@ fn frf(r: &Reader, model: &Model, places: &Places) -> FrfStudy {
     }
     let speed = r.value(&FRF.speed);
     let refine = r.flag(&FRF.refine);
-    FrfStudy { speed, frequencies, refine, excitations, responses: responses(r, model, quantity), quantity }
+    FrfStudy {
+        speed,
+        frequencies,
+        refine,
+        excitations,
+        responses: responses(r, model, Some(quantity)),
+        quantity,
+    }
 }
 
-/// Probes of the given names, or all, with the study's quantity.
-fn responses(r: &Reader, model: &Model, quantity: MotionQuantity) -> Vec<Probe> {
+/// Probes of the given names, or all, with the study's quantity, else their own.
+fn responses(r: &Reader, model: &Model, quantity: Option<MotionQuantity>) -> Vec<Probe> {
     let names = channels(r, &RESPONSE.responses, model);
-    let quantity = r.choice(&RESPONSE.response_quantity).unwrap_or(quantity);
+    let quantity = r.choice(&RESPONSE.response_quantity).or(quantity);
     let wanted = |p: &&Probe| names.is_empty() || names.contains(&p.name);
-    let chosen: Vec<Probe> =
-        model.probes.iter().filter(wanted).map(|p| Probe { quantity, ..p.clone() }).collect();
+    let of_study = |p: &Probe| Probe { quantity: quantity.unwrap_or(p.quantity), ..p.clone() };
+    let chosen: Vec<Probe> = model.probes.iter().filter(wanted).map(of_study).collect();
     if chosen.is_empty() && r.has_no_errors() {
         let problem = Problem::new(Kind::MissingKey, &r.span, format!("{} has no response probe", r.path));
         let problem = problem.follows("probe");

@@ -1,4 +1,4 @@
-//! Critical speeds beside the speeds of an unbalance response, whose separation margins it does not show.
+//! Critical speeds outside the speeds of an unbalance response, whose separation margins it does not show.
 
 use crate::analysis::ModeKind;
 use crate::analysis::peaks::{CRITICALLY_DAMPED, LARGEST_REQUIRED, separation};
@@ -11,7 +11,7 @@ use crate::study::Machine;
 use crate::warning::{Code, Warning};
 
 impl Machine {
-    /// Critical speeds that API 617 may ask to be farther from the operating speeds, and that lie beside the speeds of the response.
+    /// Critical speeds that API 617 may ask to be farther from the operating speeds, and that lie outside the speeds of the response.
     /// A response at one speed has no peaks, and none is missed.
     pub(super) fn margin_range_warnings(&self, found: &UnbalanceResult) -> Vec<Warning> {
         let (Some([lowest, highest]), Some([first, last])) =
@@ -74,7 +74,7 @@ fn unassessed(pole: &Pole, [first, last]: [f64; 2], operating: [f64; 2]) -> Warn
         side => format!("{:.1} % {side} the operating speeds", 100.0 * separation(pole.at, operating)),
     };
     let text = format!(
-        "unbalance: {} at {:.1} rpm, {distance}, lies beside the speeds of the response ({:.0} to {:.0} rpm): its \
+        "unbalance: {} at {:.1} rpm, {distance}, lies outside the speeds of the response ({:.0} to {:.0} rpm): its \
          separation margin is not assessed",
         pole.label,
         pole.at * TO_RPM,

@@ -1,5 +1,6 @@
 //! Warnings of a machine and its results: one pass over model, equilibrium and studies.
 
+mod deflection;
 mod linear;
 mod margins;
 mod modes;
@@ -27,6 +28,7 @@ impl Machine {
         let mut found = Vec::new();
         if !speeds.is_empty() {
             found.extend(self.support_warnings(speeds));
+            found.extend(self.deflection_warnings(results));
         }
         found.extend(tables::warnings(&self.model, results));
         found.extend(supports::ball_inertia(results));

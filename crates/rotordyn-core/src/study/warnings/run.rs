@@ -15,8 +15,6 @@ use std::f64::consts::TAU;
 const OPEN_BALANCE: f64 = 1e-3;
 /// Residual over the largest stored energy, mostly that of the static load, below which next to nothing vibrates.
 const AT_REST: f64 = 1e-6;
-/// Error of a level from which chaos may be its cause.
-const CHAOTIC_ERROR: f64 = 0.3;
 /// Round-off of a step's energies, in that of one operation.
 const ROUND_OFFS: f64 = 16.0;
 /// Linear modes looked at where a motion grows, and exponent of their growth from which they matter.
@@ -71,7 +69,8 @@ impl Machine {
                 100.0 * line.error.abs()
             );
             let needed = 1e6 * step * (0.01 / line.error.abs()).sqrt();
-            let chaotic = match line.error.abs() > CHAOTIC_ERROR {
+            // Contacts that open make chaos possible.
+            let chaotic = match self.model.bearings.iter().any(|site| site.bearing.ball().is_some()) {
                 true => ", unless the motion is chaotic: then two steps part whatever their length",
                 false => "",
             };
