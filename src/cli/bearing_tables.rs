@@ -80,10 +80,8 @@ pub fn bearing(terminal: &Terminal, found: &BearingResult) {
     }
     if let Some(mounted) = &found.mounted_preload {
         let rows: Vec<String> = mounted.rows.iter().map(|force| number(*force, 4)).collect();
-        terminal.print(&format!(
-            "  axial force of every row in the machine at this speed: {} N",
-            rows.join(", ")
-        ));
+        let of = if rows.len() > 1 { " of every row" } else { "" };
+        terminal.print(&format!("  axial force{of} in the machine at this speed: {} N", rows.join(", ")));
     }
     balls(terminal, point);
     ball_motion::print(terminal, found);

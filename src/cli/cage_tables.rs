@@ -39,6 +39,11 @@ pub fn comparison(terminal: &Terminal, found: &RollingCageComparison) {
     ];
     terminal.table(&title, &header, &cages.collect::<Vec<_>>());
     let lines = found.lines.iter().map(|line| {
+        // Of two levels within the noise the ratio says nothing.
+        let above_noise = |other: f64, difference: f64| match line.free.max(other) > line.noise {
+            true => percent(difference),
+            false => "-".into(),
+        };
         vec![
             line.channel.clone(),
             line.line.label.clone(),
@@ -48,9 +53,9 @@ pub fn comparison(terminal: &Terminal, found: &RollingCageComparison) {
             number(line.spaced, 4),
             number(line.noise, 2),
             line.unit.clone(),
-            percent(line.difference()),
-            percent(line.difference_driven()),
-            percent(line.difference_spaced()),
+            above_noise(line.rolling, line.difference()),
+            above_noise(line.driven, line.difference_driven()),
+            above_noise(line.spaced, line.difference_spaced()),
         ]
     });
     let header = [

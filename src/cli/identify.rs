@@ -7,8 +7,8 @@ use std::time::Instant;
 use rotordyn::error::Error;
 use rotordyn::identify::operational::OperationalSettings;
 use rotordyn::identify::{
-    ModalIdentification, ResidualTerms, Settings, frfs_without_unit, identify, low_coherence,
-    single_lines_text, without_single_lines,
+    ModalIdentification, ResidualTerms, Settings, driving_point_faults, frfs_without_unit, identify,
+    low_coherence, single_lines_text, without_single_lines,
 };
 use rotordyn::io::hdf5::open_reader;
 use rotordyn::io::measured::impact_run;
@@ -137,6 +137,7 @@ fn identify_modes(
     quality_warnings(&frfs, args, from_hits, warnings);
     let found = identify(&frfs, settings).map_err(|error| with_context(error.into()))?;
     warnings.extend(low_coherence(&frfs, &found));
+    warnings.extend(driving_point_faults(&found));
     for mode in found.modes.iter().filter(|m| m.damping_ratio() <= 0.0) {
         warnings.push(format!(
             "without the damping of the exponential window the mode at {:.3} Hz has a damping ratio of {:.3} %: \
@@ -166,8 +167,8 @@ fn fit_error_warnings(found: &ModalIdentification, warnings: &mut Vec<String>) {
         worst.iter().take(4).map(|(error, name)| format!("{name} by {:.0} %", 100.0 * error)).collect();
     if count > 0 {
         warnings.push(format!(
-            "{count} of {all} FRFs have a large fit error ({}{}): bad hit, wrong point or direction, or low response; check \
-             their coherence, repeat the measurement or exclude them",
+            "{count} of {all} FRFs have a large fit error ({}{}): bad hit, wrong point or direction, low response, or lines \
+             above what the hits excite; check their coherence, restrict --band, repeat the measurement or exclude them",
             some.join(", "),
             if count > 4 { ", ..." } else { "" }
         ));

@@ -13,7 +13,12 @@ use rotordyn::warning::Code;
 
 /// Codes of an angular contact row by itself under two loads.
 fn at_loads(designation: &str, loads: [&str; 2]) -> Pair {
-    let row = alone(designation, "thrust = \"+z\"\nball_inertia = \"none\"");
+    with_keys_at_loads(designation, "", loads)
+}
+
+/// The same of a bearing with further keys.
+fn with_keys_at_loads(designation: &str, keys: &str, loads: [&str; 2]) -> Pair {
+    let row = alone(designation, &format!("thrust = \"+z\"\nball_inertia = \"none\"\n{keys}"));
     let folder = program::folder(&[("bearing.toml", row)]);
     loads.map(|load| {
         let bearing = ["bearing", "bearing.toml", "--no-figures", "--out", "out", "--load", load];
@@ -158,6 +163,10 @@ const SUPPORTS: &[Case] = &[
     (Code::ContactAngleLost, || {
         // Half the balls of a single row carry with a thrust of 1.25 F_r tan 40 deg; without it the ring slides.
         at_loads("7206B", ["0, -1000, 1100 N", "0, -1000, 20 N"])
+    }),
+    (Code::ContactAngleLost, || {
+        let tandem = "arrangement = \"tandem\"\nrow_spacing = \"16 mm\"";
+        with_keys_at_loads("7206B", tandem, ["0, -2000, 2200 N", "0, -2000, 40 N"])
     }),
     (Code::OpenSide, || {
         // Pressed beyond its play against its direction, an angular contact row carries on the open side.

@@ -33,6 +33,7 @@ mod alternative_mode;
 mod bands;
 mod data;
 mod dense;
+mod driving_point;
 mod error;
 mod frf_power;
 mod lsfd;
@@ -63,6 +64,7 @@ pub mod whirl;
 mod window;
 
 pub use data::{derivatives, frfs_without_unit, is_force_over_motion, quantity_of};
+pub use driving_point::driving_point_faults;
 pub use error::IdentifyError;
 pub use mode_coherence::low_coherence;
 pub use result::{DiagramPole, DroppedPole, ModalIdentification, Mode, QualityWarning, Stability};

@@ -1,6 +1,7 @@
 //! Correlation of a model with a measurement: pairs of modes, MAC and FRAC.
 
 use super::UpdateFailure;
+use super::frf::is_coupled;
 use super::frf_levels::FrfLevels;
 use super::frf_scale::{FrfScale, common_scale};
 use super::state::ModelState;
@@ -20,6 +21,17 @@ pub struct Correlation<'a> {
     pub frfs: Option<Vec<Vec<Vec<Complex64>>>>,
 }
 
+/// Frequency response assurance criterion `[response][reference]`; NaN where one of the two FRFs is zero, the computed one to
+/// round-off.
+pub fn frac_of_frfs(measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>]) -> Vec<Vec<f64>> {
+    let value = |r: usize, e: usize| match measured.is_nonzero(r, e) && is_coupled(computed, r, e) {
+        true => frac(&measured.values[r][e], &computed[r][e]),
+        false => f64::NAN,
+    };
+    let references = 0..measured.references.len();
+    (0..measured.responses.len()).map(|r| references.clone().map(|e| value(r, e)).collect()).collect()
+}
+
 impl<'a> Correlation<'a> {
     /// Computes the FRFs at the measured points.
     ///
@@ -35,16 +47,10 @@ impl<'a> Correlation<'a> {
         self.target.frfs.as_ref().zip(self.frfs.as_deref())
     }
 
-    /// Frequency response assurance criterion `[response][reference]`; NaN for a measured FRF of zero.
+    /// [`frac_of_frfs`] of the measured FRFs.
     pub fn frac(&self) -> Option<Vec<Vec<f64>>> {
         let (measured, computed) = self.measured_and_computed()?;
-        let value = |r: usize, e: usize| match measured.is_nonzero(r, e) {
-            true => frac(&measured.values[r][e], &computed[r][e]),
-            false => f64::NAN,
-        };
-        let references = 0..measured.references.len();
-        let row = |r| references.clone().map(|e| value(r, e)).collect();
-        Some((0..measured.responses.len()).map(row).collect())
+        Some(frac_of_frfs(measured, computed))
     }
 
     /// Level of the computed FRFs over the measured ones \[dB\], median over the lines, `[response][reference]`; NaN for FRFs of

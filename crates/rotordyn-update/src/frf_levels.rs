@@ -146,7 +146,7 @@ impl<'a> FrfLevels<'a> {
         };
         let others = self.factors(&alike, scale).into_iter().chain(reversed(&alike));
         found.extend(others.filter(|fault| !of_exchanged(fault)));
-        found.extend(self.dead());
+        found.extend(self.dead(scale));
         found
     }
 
@@ -207,12 +207,15 @@ impl<'a> FrfLevels<'a> {
         pairs.filter(is_exchanged).map(|responses| FrfFault::Exchanged { responses }).collect()
     }
 
-    fn dead(&self) -> Vec<FrfFault> {
+    /// `scale`: as of [`Self::faults`].
+    fn dead(&self, scale: f64) -> Vec<FrfFault> {
         let power = |rows: &[Vec<Complex64>]| rows.iter().flatten().map(|h| h.norm_sqr()).sum::<f64>();
         let largest = self.computed.iter().map(|rows| power(rows)).fold(0.0, f64::max);
         let is_dead = |r: &usize| {
             let (m, c) = (power(&self.measured[*r]), power(&self.computed[*r]));
-            c > DEAD * DEAD * m && c > DEAD_SHARE * DEAD_SHARE * largest && self.frac_with(*r, *r) < ALIKE
+            c > (DEAD * scale).powi(2) * m
+                && c > DEAD_SHARE * DEAD_SHARE * largest
+                && self.frac_with(*r, *r) < ALIKE
         };
         let rows = (0..self.responses()).filter(is_dead);
         rows.map(|response| FrfFault::Dead { response }).collect()

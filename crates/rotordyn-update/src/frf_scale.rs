@@ -20,10 +20,26 @@ const MIN_FRFS: f64 = 0.9;
 const MIN_SCALE: f64 = 0.588;
 /// Relative difference of a scale from the ratio of two units up to which the units are its likely cause.
 const UNIT_TOLERANCE: f64 = 0.06;
+/// The same as a part of the spread of the lines.
+const UNIT_TOLERANCE_OF_SPREAD: f64 = 0.3;
+
+/// |ln| of a scale from which no model that resembles the machine explains it: a factor of 5.
+const FAR: f64 = 1.609;
+/// Difference of the median of an FRF from so large a scale, and median difference of all lines, up to which the FRFs have it:
+/// 5 dB, and FRFs that it takes.
+const NEAR_FAR: f64 = 0.58;
+const MIN_FRFS_FAR: usize = 4;
+/// Spread of the lines about a power of ω over that about a factor alone, below which the power is taken.
+const CLEARER: f64 = 0.8;
 
 /// Measured over computed |H| by units, the quantity for which alone they are usual, and what would cause it.
-const UNITS: [(f64, Option<Quantity>, &str); 12] = [
+const UNITS: [(f64, Option<Quantity>, &str); 13] = [
     (1.0 / 9.806_65, Some(Quantity::Acceleration), "accelerations in g that are read as m/s^2"),
+    (
+        9.806_65,
+        Some(Quantity::Acceleration),
+        "accelerations in m/s^2 that are read as g, or forces in kgf that are read as N",
+    ),
     (9.806_65, None, "forces in kgf that are read as N"),
     (4.448_222, None, "forces in lbf that are read as N"),
     (1.0 / 4.448_222, None, "forces in N that are read as lbf"),
@@ -59,7 +75,8 @@ pub struct FrfScale {
 impl FrfScale {
     /// Units that would give the ratio, if known ones do.
     pub fn unit_cause(&self) -> Option<&'static str> {
-        let near = |of: f64| (self.ratio / of).ln().abs() < UNIT_TOLERANCE;
+        let tolerance = UNIT_TOLERANCE.max(UNIT_TOLERANCE_OF_SPREAD * self.spread);
+        let near = |of: f64| (self.ratio / of).ln().abs() < tolerance;
         let usual = |of: Option<Quantity>| of.is_none_or(|of| of == self.stated);
         UNITS.iter().find(|(of, quantity, _)| near(*of) && usual(*quantity)).map(|(_, _, cause)| *cause)
     }
@@ -107,7 +124,8 @@ impl FrfScale {
 /// The common scale of measured FRFs over the computed ones in a band \[Hz\], if it is far from 1; `computed` contains all lines.
 ///
 /// Half of the lines of all FRFs and the medians of 90 % of the FRFs are within 2 dB of it. FRFs that are zero in the model are
-/// left out. It may be taken of a model whose resonances are a few per cent off: most lines are beside them.
+/// left out. It may be taken of a model whose resonances are a few per cent off: most lines are beside them. Of a model farther off
+/// only a factor of 5 or more is found, by the medians of four or more FRFs.
 pub fn common_scale(
     measured: &TargetFrfs,
     computed: &[Vec<Vec<Complex64>>],
@@ -134,38 +152,87 @@ pub fn common_scale(
         return found.is_large().then_some(found);
     }
     // One quantity for all, else a power has no meaning.
-    if measured.quantities.iter().any(|quantity| *quantity != stated) {
-        return None;
+    let others: Vec<Quantity> = match measured.quantities.iter().all(|quantity| *quantity == stated) {
+        true => [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration]
+            .into_iter()
+            .filter(|quantity| *quantity != stated)
+            .collect(),
+        false => Vec::new(),
+    };
+    let power_of = |quantity: Quantity| derivatives(quantity) - derivatives(stated);
+    let by_lines = others.iter().filter_map(|&quantity| {
+        let found = scale_of_power(&differences, power_of(quantity), stated)?;
+        Some(FrfScale { quantity: Some(quantity), ..found })
+    });
+    by_lines.min_by(|a, b| a.spread.total_cmp(&b.spread)).or_else(|| {
+        let factor = Levels::new(&differences, 0);
+        if factor.common.abs() < FAR || differences.len() < MIN_FRFS_FAR {
+            return None;
+        }
+        let mut best = (factor.spread(), factor, None);
+        for quantity in others {
+            let levels = Levels::new(&differences, power_of(quantity));
+            let spread = levels.spread();
+            if spread < CLEARER * best.0 {
+                best = (spread, levels, Some(quantity));
+            }
+        }
+        let (spread, levels, quantity) = best;
+        let has_scale = spread < NEAR_FAR && levels.share_of_medians(NEAR_FAR) >= MIN_FRFS;
+        has_scale.then(|| FrfScale { quantity, ..levels.scale(stated) })
+    })
+}
+
+/// ln|H_measured/H_computed| − p ln ω of every line of every FRF.
+struct Levels {
+    power: i32,
+    lines: Vec<f64>,
+    /// Median of every FRF, and their median.
+    medians: Vec<f64>,
+    common: f64,
+}
+
+impl Levels {
+    /// `differences`: ln|H_measured/H_computed| and ln ω of the lines of one FRF or more.
+    fn new(differences: &[Vec<[f64; 2]>], power: i32) -> Self {
+        let without = |frf: &Vec<[f64; 2]>| -> Vec<f64> {
+            frf.iter().map(|[level, omega]| level - f64::from(power) * omega).collect()
+        };
+        let levels: Vec<Vec<f64>> = differences.iter().map(without).collect();
+        let medians: Vec<f64> = levels.iter().map(|frf| median(frf.clone())).collect();
+        let common = if medians.is_empty() { 0.0 } else { median(medians.clone()) };
+        Self { power, lines: levels.concat(), medians, common }
     }
-    [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration]
-        .into_iter()
-        .filter(|quantity| *quantity != stated)
-        .filter_map(|quantity| {
-            let found = scale_of_power(&differences, derivatives(quantity) - derivatives(stated), stated)?;
-            Some(FrfScale { quantity: Some(quantity), ..found })
-        })
-        .min_by(|a, b| a.spread.total_cmp(&b.spread))
+
+    fn share(&self, of: &[f64], within: f64) -> f64 {
+        of.iter().filter(|level| (*level - self.common).abs() < within).count() as f64
+            / of.len().max(1) as f64
+    }
+
+    fn share_of_lines(&self, within: f64) -> f64 {
+        self.share(&self.lines, within)
+    }
+
+    fn share_of_medians(&self, within: f64) -> f64 {
+        self.share(&self.medians, within)
+    }
+
+    /// Median distance of the lines from the common level.
+    fn spread(&self) -> f64 {
+        median(self.lines.iter().map(|level| (level - self.common).abs()).collect())
+    }
+
+    fn scale(&self, stated: Quantity) -> FrfScale {
+        let (ratio, spread) = (self.common.exp(), self.spread());
+        FrfScale { ratio, power: self.power, spread, stated, quantity: None }
+    }
 }
 
 /// The scale of one power of ω, if the FRFs have it.
 fn scale_of_power(differences: &[Vec<[f64; 2]>], power: i32, stated: Quantity) -> Option<FrfScale> {
-    let without = |frf: &Vec<[f64; 2]>| -> Vec<f64> {
-        frf.iter().map(|[level, omega]| level - f64::from(power) * omega).collect()
-    };
-    let levels: Vec<Vec<f64>> = differences.iter().map(without).collect();
-    let medians: Vec<f64> = levels.iter().map(|frf| median(frf.clone())).collect();
-    if medians.is_empty() {
-        return None;
-    }
-    let common = median(medians.clone());
-    let near = |level: &f64| (level - common).abs() < NEAR;
-    let share = |of: &[f64]| of.iter().filter(|level| near(level)).count() as f64 / of.len() as f64;
-    let all: Vec<f64> = levels.concat();
-    if share(&all) < MIN_LINES || share(&medians) < MIN_FRFS {
-        return None;
-    }
-    let spread = median(all.iter().map(|level| (level - common).abs()).collect());
-    Some(FrfScale { ratio: common.exp(), power, spread, stated, quantity: None })
+    let levels = Levels::new(differences, power);
+    let has_scale = levels.share_of_lines(NEAR) >= MIN_LINES && levels.share_of_medians(NEAR) >= MIN_FRFS;
+    has_scale.then(|| levels.scale(stated))
 }
 
 #[cfg(test)]
@@ -223,6 +290,28 @@ mod tests {
         assert!(scale.advice().contains("motion in mm"), "{}", scale.advice());
         let scale = found(|_, _| 3.1, 1.0).unwrap();
         assert!(scale.text().contains("3.10 times") && scale.unit_cause().is_none(), "{}", scale.text());
+    }
+
+    /// A model whose resonances are 6 % off, and whose levels differ by up to 3 dB from response to response.
+    #[test]
+    fn a_large_factor_is_named_with_a_model_far_off() {
+        let found = |of: &dyn Fn(f64) -> f64| {
+            let (mut measured, mut computed) = frfs(|_, f| of(f), 1.06);
+            for (k, level) in [1.3, 0.75, 0.8].into_iter().enumerate() {
+                let scaled = measured.values[k % 2][0].iter().map(|h| level * h).collect();
+                measured.values.push(vec![scaled]);
+                computed.push(computed[k % 2].clone());
+                measured.responses.push(measured.responses[k % 2].clone());
+            }
+            measured.quantities = vec![Quantity::Acceleration; measured.responses.len()];
+            common_scale(&measured, &computed, [5.0, 180.0])
+        };
+        let scale = found(&|_| 9.806_65).unwrap();
+        assert!((scale.ratio / 9.806_65).ln().abs() < 0.2, "{scale:?}");
+        assert!(scale.advice().contains("m/s^2 that are read as g"), "{}", scale.advice());
+        let scale = found(&|f| (TAU * f).powi(-2)).unwrap();
+        assert_eq!(scale.quantity, Some(Quantity::Displacement), "{scale:?}");
+        assert_eq!(found(&|_| 2.5), None);
     }
 
     #[test]

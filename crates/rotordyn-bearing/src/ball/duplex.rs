@@ -22,6 +22,11 @@ impl BallBearing {
         let thrust = self.geometry.thrust_direction;
         self.duplex.map_or(vec![(0.0, thrust)], |pair| pair.rows(thrust).to_vec())
     }
+
+    /// Whether all its rows have the same direction of thrust: a single row, or a tandem pair.
+    pub fn takes_thrust_one_way(&self) -> bool {
+        self.duplex.is_none_or(|pair| pair.arrangement == Arrangement::Tandem)
+    }
 }
 
 /// Displacement of the ring at an axial offset h from the station: u_x + h θ_y, u_y − h θ_x.

@@ -11,7 +11,7 @@ use super::ring_motion::RingMotion;
 use super::row::Row;
 use super::row_kernel::RowForce;
 use crate::contact::HertzPair;
-use crate::{BallBearing, PreloadState, Profile, Reaction, Rotation};
+use crate::{Arrangement, BallBearing, PreloadState, Profile, Reaction, Rotation};
 
 /// A ball bearing prepared for evaluation: one row, or the two of a matched pair.
 #[derive(Clone, Debug)]
@@ -33,7 +33,14 @@ impl BallElement {
             None => vec![(0.0, Row::new(bearing, 0, g.thrust_direction))],
             Some(pair) => {
                 let rows = pair.rows(g.thrust_direction).into_iter().enumerate();
-                rows.map(|(k, (place, direction))| (place, Row::new(bearing, k, direction))).collect()
+                // Rows in tandem share the preload, opposed ones press on each other with the whole.
+                let of_row = match pair.arrangement {
+                    Arrangement::Tandem => {
+                        &BallBearing { preload: bearing.preload.shared_by(2), ..bearing.clone() }
+                    }
+                    Arrangement::BackToBack | Arrangement::FaceToFace => bearing,
+                };
+                rows.map(|(k, (place, direction))| (place, Row::new(of_row, k, direction))).collect()
             }
         };
         out
@@ -62,11 +69,14 @@ impl BallElement {
         self.rows.iter().any(|(_, row)| row.depends_on_speed())
     }
 
-    /// Preload of the centred bearing at a speed Ω \[rad/s\]: offset and resulting axial force.
+    /// Preload of the centred bearing at a speed Ω \[rad/s\]: offset and resulting axial force, of a tandem pair that of both rows.
     pub fn preload_state(&self, speed: f64) -> PreloadState {
         let rotation = Rotation { shaft_speed: speed, ..Rotation::default() };
         let orbit = self.cage_equilibrium(&[0.0; 6], &rotation, false, None).orbit;
-        self.rows.first().map_or_else(PreloadState::default, |(_, row)| row.preload_state(&rotation, orbit))
+        let Some((_, first)) = self.rows.first() else { return PreloadState::default() };
+        let alike = self.rows.iter().filter(|(_, row)| row.direction == first.direction).count();
+        let of_row = first.preload_state(&rotation, orbit);
+        PreloadState { axial_force: alike as f64 * of_row.axial_force, ..of_row }
     }
 
     /// Force on the shaft and both tangents at a displacement of the inner ring relative to the outer one.

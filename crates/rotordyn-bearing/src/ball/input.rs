@@ -262,6 +262,20 @@ impl Preload {
             | Self::Mounted { force, .. } => Some(force),
         }
     }
+
+    /// The share of each of some equal rows that take it side by side: force and spring are divided.
+    pub(super) fn shared_by(self, rows: usize) -> Self {
+        let part = 1.0 / rows as f64;
+        match self {
+            Self::None | Self::Interference(_) => self,
+            Self::DryForce(force) => Self::DryForce(part * force),
+            Self::Force(force) => Self::Force(part * force),
+            Self::Spring { stiffness, force } => {
+                Self::Spring { stiffness: part * stiffness, force: part * force }
+            }
+            Self::Mounted { force, interference } => Self::Mounted { force: part * force, interference },
+        }
+    }
 }
 
 /// Duplex (matched) pair: two equal rows.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct PreloadState {
     /// Axial approach of the rings from nominal in the direction of thrust \[m\].
     pub offset: f64,
-    /// Resulting axial force \[N\]; per row in a matched pair.
+    /// Resulting axial force \[N\]; in a back-to-back or face-to-face pair that of each row.
     pub axial_force: f64,
 }
 

@@ -132,12 +132,12 @@ impl BearingLoad<'_> {
         (film < LOWEST_FILM_RATIO * roughness).then_some(ExceededLimit::Film { film, roughness })
     }
 
-    /// Whether it is a single row with a contact angle, whose outer race has one shoulder.
+    /// Whether it has a contact angle and takes thrust one way: a single row, or a tandem pair. Each outer race has one shoulder.
     fn is_angled(&self) -> bool {
-        self.bearing.geometry.contact_angle > 0.0 && self.bearing.duplex.is_none()
+        self.bearing.geometry.contact_angle > 0.0 && self.bearing.takes_thrust_one_way()
     }
 
-    /// Mean inner contact angle by load of a single row with a contact angle \[rad\].
+    /// Mean inner contact angle by load of a single row or tandem pair with a contact angle \[rad\].
     pub(super) fn mean_contact_angle(&self) -> Option<f64> {
         let balls = self.balls.iter().filter(|ball| ball.load > 0.0);
         let mean = || {
@@ -157,7 +157,7 @@ impl BearingLoad<'_> {
         })
     }
 
-    /// Number of balls pressed onto the open side of a single row with a contact angle.
+    /// Number of balls pressed onto the open side of a single row or tandem pair with a contact angle.
     pub(super) fn balls_on_open_side(&self) -> Option<usize> {
         let thrust = self.bearing.geometry.thrust_direction;
         let on_open_side =

@@ -42,6 +42,39 @@ fn specified_preload_force_is_reached() {
     }
 }
 
+/// The preload of a tandem pair is that of both rows, those of other pairs press against each other with the whole of it: the
+/// centred pair carries the stated force outwards, or none; a soft spring is the axial stiffness.
+#[test]
+fn rows_in_tandem_share_the_preload() {
+    let still = Rotation { shaft_speed: SPEED, ..Rotation::default() };
+    for (arrangement, outwards) in
+        [(Arrangement::Tandem, 400.0), (Arrangement::BackToBack, 0.0), (Arrangement::FaceToFace, 0.0)]
+    {
+        let pair = Duplex { arrangement, spacing: 0.016 };
+        let of = |preload| {
+            let bearing = BallBearing { duplex: Some(pair), preload, ..angular() };
+            let direction = bearing.geometry.thrust_direction;
+            (BallElement::new(&bearing), direction)
+        };
+        let (element, direction) = of(Preload::Force(400.0));
+        let state = element.preload_state(SPEED);
+        assert!(close(state.axial_force, 400.0, 1e-9), "{arrangement:?}: {state:?}");
+        let force = element.reaction(&[0.0; 6], &[0.0; 6], &still).force[2];
+        assert!((force + direction * outwards).abs() < 1e-6, "{arrangement:?}: {force}");
+
+        let spring = 1e4;
+        let (element, direction) = of(Preload::Spring { stiffness: spring, force: 400.0 });
+        let at = |z: f64| element.reaction(&[0.0, 0.0, z, 0.0, 0.0, 0.0], &[0.0; 6], &still);
+        let rows = if arrangement == Arrangement::Tandem { 1.0 } else { 2.0 };
+        let stiffness = at(0.0).stiffness[2][2];
+        assert!(close(stiffness, rows * spring, 0.01), "{arrangement:?}: {stiffness}");
+        let difference = (at(1e-7).force[2] - at(-1e-7).force[2]) / -2e-7;
+        assert!(close(difference, stiffness, 1e-3), "{arrangement:?}: {difference}");
+        let force = at(0.0).force[2] + direction * outwards;
+        assert!(force.abs() < 0.01 * 400.0, "{arrangement:?}: {force}");
+    }
+}
+
 #[test]
 fn film_adds_to_dry_preload_force() {
     let bearing = BallBearing { contact: film(), preload: Preload::DryForce(250.0), ..angular() };

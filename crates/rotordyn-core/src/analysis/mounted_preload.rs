@@ -14,7 +14,8 @@ pub struct MountedPreload {
     pub bearing: String,
     /// As stated in the model file.
     pub stated: Preload,
-    /// Axial force of every row in the direction of its thrust at equilibrium \[N\].
+    /// Axial force of every row in the direction of its thrust at equilibrium \[N\]; of a tandem pair that of both together, which
+    /// share the preload.
     pub rows: Vec<f64>,
 }
 
@@ -53,8 +54,8 @@ impl MountedPreload {
     }
 }
 
-/// Axial forces of the preloaded ball bearings at an equilibrium, F = ±f_z of a single row, F = ±Σ Q_j sin α_j of the
-/// rows of a pair, positive in the direction of the row's thrust.
+/// Axial forces of the preloaded ball bearings at an equilibrium, F = ±f_z of a single row or a tandem pair, F = ±Σ Q_j sin α_j
+/// of the rows of another pair, positive in the direction of the row's thrust.
 pub(super) fn mounted_preloads(
     model: &Model,
     elements: &[(Arc<dyn BearingElement>, Rotation)],
@@ -69,6 +70,7 @@ pub(super) fn mounted_preloads(
         }
         let rows = match ball.rows().as_slice() {
             [(_, direction)] => vec![-direction * state.force[2]],
+            [(_, first), (_, second)] if first == second => vec![-first * state.force[2]],
             rows => rows
                 .iter()
                 .enumerate()

@@ -20,7 +20,7 @@ use rotordyn_bearing::contact::{BallContacts, ContactLaw};
 use rotordyn_bearing::free_ball::FreeBallBearing;
 use rotordyn_bearing::rating::LoadRating;
 use rotordyn_bearing::rating::limit_checks::{GREASE_SPEED_PARAMETER, speed_limit, speed_parameter};
-use rotordyn_bearing::{Arrangement, BallBearing, CharacteristicOrders, Preload, PreloadState, kinematics};
+use rotordyn_bearing::{BallBearing, CharacteristicOrders, Preload, PreloadState, kinematics};
 use std::ops::ControlFlow;
 
 /// Points of a sweep over a default range.
@@ -127,20 +127,23 @@ impl<'a> SingleBearingStudy<'a> {
     /// Load and prescribed displacements of a bearing without a machine.
     fn operating(&self) -> OperatingPoint {
         let g = &self.bearing.geometry;
-        let single = self.bearing.duplex.is_none();
-        let preloaded = single && self.bearing.preload != Preload::None;
+        let one_way = self.bearing.takes_thrust_one_way();
+        let preloaded = one_way && self.bearing.preload != Preload::None;
         let (force, words) = match self.study.force {
             Some(force) => (force, "as given".to_string()),
             None if self.study.moment.is_some() => ([0.0; 3], "as given".to_string()),
             None => {
                 let radial = 0.1 * self.rating().dynamic;
-                // Thrust that keeps half the balls of a single row loaded.
-                let thrust = if single && !preloaded { 1.25 * radial * g.contact_angle.tan() } else { 0.0 };
-                let words = match thrust > 0.0 {
-                    true => {
+                // Thrust that keeps half the balls of a row loaded.
+                let thrust = if one_way && !preloaded { 1.25 * radial * g.contact_angle.tan() } else { 0.0 };
+                let words = match (thrust > 0.0, self.bearing.duplex) {
+                    (true, None) => {
                         "a tenth of the dynamic load rating along -y, with the thrust that a single row needs"
                     }
-                    false => "a tenth of the dynamic load rating along -y",
+                    (true, Some(_)) => {
+                        "a tenth of the dynamic load rating along -y, with the thrust that a tandem pair needs"
+                    }
+                    (false, _) => "a tenth of the dynamic load rating along -y",
                 };
                 ([0.0, -radial, g.thrust_direction * thrust], words.to_string())
             }
@@ -162,7 +165,7 @@ impl<'a> SingleBearingStudy<'a> {
     fn preload_without_effect(&self, operating: &OperatingPoint) -> Option<Warning> {
         let rigid = !matches!(self.bearing.preload, Preload::None | Preload::Spring { .. });
         // Opposed rows hold their preload between them.
-        let opposed = self.bearing.duplex.is_some_and(|pair| pair.arrangement != Arrangement::Tandem);
+        let opposed = !self.bearing.takes_thrust_one_way();
         if !rigid || opposed || operating.prescribed[2].is_some() {
             return None;
         }

@@ -214,7 +214,7 @@ impl Machine {
             })
             .collect();
         let peaks = response_peaks(&speeds, &channels, &orbits, &undamped);
-        let operating_speeds = self.operating_speeds(study);
+        let operating_speeds = self.operating_speeds(study.operating_speeds);
         let excited = |pole: &Pole| pole.is_excited_by(&self.assembly.unbalance_amplitude(pole.at));
         // Margins are those of displacements: a derivative's factor of speed widens its peaks to one side.
         let displacements = channels_of(Some(Quantity::Displacement));

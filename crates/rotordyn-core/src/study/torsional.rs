@@ -4,7 +4,6 @@ use super::Machine;
 use crate::analysis::peaks::separation;
 use crate::analysis::torsional::torsional_modes;
 use crate::assembly::PhysicsError;
-use crate::model::Drive;
 use crate::model::study::TorsionalStudy;
 use crate::results::{Interference, TorsionalResult};
 use std::f64::consts::TAU;
@@ -21,9 +20,7 @@ impl Machine {
             return machine.torsional(study);
         }
         let found = torsional_modes(&self.assembly, &self.linear_system(0.0)?, study.modes)?;
-        let top = self.model.profile.top_speed();
-        let prescribed = matches!(self.model.drive, Drive::Prescribed { .. });
-        let operating_speeds = study.operating_speeds.or((top > 0.0 && prescribed).then_some([top; 2]));
+        let operating_speeds = self.operating_speeds(study.operating_speeds);
         let orders = self.order_lines(&study.orders);
         let mut interferences = Vec::new();
         for (k, mode) in found.modes.iter().enumerate() {

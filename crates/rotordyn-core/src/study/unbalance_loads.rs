@@ -5,8 +5,6 @@ use crate::analysis::section_loads::ShaftSections;
 use crate::analysis::shaft_loads::{ShaftAmplitudes, largest_moment, under_unbalance};
 use crate::analysis::unbalance::{self, UnbalanceMotion};
 use crate::assembly::{PhysicsError, Site};
-use crate::model::Drive;
-use crate::model::study::UnbalanceStudy;
 use crate::results::{BearingForce, UndampedPeak};
 use rotordyn_linalg::{Complex64, SparseRow};
 
@@ -28,11 +26,11 @@ pub(super) struct BearingSample {
 }
 
 impl Machine {
-    /// Lowest and highest operating speed \[rad/s\]: those of the study, else the highest of a prescribed profile.
-    pub(super) fn operating_speeds(&self, study: &UnbalanceStudy) -> Option<[f64; 2]> {
+    /// Lowest and highest operating speed \[rad/s\]: those stated, else the highest of the profile, also where a torque drives and the
+    /// profile is what the machine is to reach.
+    pub(super) fn operating_speeds(&self, stated: Option<[f64; 2]>) -> Option<[f64; 2]> {
         let top = self.model.profile.top_speed();
-        let prescribed = matches!(self.model.drive, Drive::Prescribed { .. });
-        study.operating_speeds.or((top > 0.0 && prescribed).then_some([top; 2]))
+        stated.or((top > 0.0).then_some([top; 2]))
     }
 
     /// What is kept of the motion at one speed: the amplitudes of the rows `observed`, forces and moments.

@@ -6,6 +6,7 @@
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
+use super::interface::Interface;
 use super::numbers::vector;
 use super::system::{State, System};
 use super::torque::DriveEnergy;
@@ -78,8 +79,6 @@ pub struct EnergyBalance {
     v: DVector<f64>,
     /// Parametric and contact-loss power at the last state.
     powers: [f64; 2],
-    /// First step of a pair of steps: its length \[s\] and the powers before it.
-    first_of_pair: Option<(f64, [f64; 2])>,
     /// Displacements and velocities of the interfaces there.
     d: Vec<f64>,
     d_rate: Vec<f64>,
@@ -103,7 +102,6 @@ impl EnergyBalance {
             x: state.x.clone(),
             v: state.v.clone(),
             powers: powers(system, state),
-            first_of_pair: None,
             d: state.d.clone(),
             d_rate: state.d_rate.clone(),
             body_work: system.body_work(state),
@@ -126,8 +124,8 @@ impl EnergyBalance {
             && self.rotation.is_some() == system.drive.is_some()
     }
 
-    /// Adds one step: work of the mean load along the step's displacement, powers by the trapezoidal rule and every second step by
-    /// that of Simpson for both.
+    /// Adds one step: work of the mean load along the step's displacement, that of the forces of linear bearings too, and powers
+    /// in other bearings by the trapezoidal rule.
     pub fn update(&mut self, system: &System, state: &State) {
         with_widest_vectors(
             #[inline(always)]
@@ -162,24 +160,15 @@ impl EnergyBalance {
         system.panels.damping.mul_add(&self.v.as_slice()[..n], damping);
         let lost = dot_in_sixteens(damping, &self.moved.as_slice()[..n]);
         let at_defects = self.jumps_at_defects(system, state);
+        let in_linear_bearings = self.work_in_linear_bearings(system, state);
         let e = &mut self.energy;
         e.damping_loss += lost;
+        e.parametric += in_linear_bearings[0];
+        e.contact_loss += in_linear_bearings[1];
         let now = powers(system, state);
         e.parametric += 0.5 * step * (self.powers[0] + now[0]);
         e.parametric += energy_by_speed_change(system, state, &self.rotations);
         e.contact_loss += 0.5 * step * (self.powers[1] + now[1]);
-        // Where a power jumps there is no parabola through it.
-        self.first_of_pair = match self.first_of_pair {
-            _ if at_defects != [0.0; 2] => None,
-            None => Some((step, self.powers)),
-            Some((first, before)) => {
-                let by_parabola =
-                    |k: usize| beyond_trapezoids([first, step], [before[k], self.powers[k], now[k]]);
-                e.parametric += by_parabola(0);
-                e.contact_loss += by_parabola(1);
-                None
-            }
-        };
         e.parametric += step * at_defects[0];
         e.contact_loss += step * at_defects[1];
         self.powers = now;
@@ -194,6 +183,32 @@ impl EnergyBalance {
         self.v.copy_from(&state.v);
         self.spin = state.spin;
         self.time = state.time;
+    }
+
+    /// Parametric and dissipated energy of a step in linear bearings, at its mean displacement and velocity.
+    ///
+    /// With circular frequency ω and step h the mean load works by sin(ωh)/(ωh) of the exact work, trapezoids of powers are exact:
+    /// where most is dissipated in bearings, sums of both kinds do not balance.
+    fn work_in_linear_bearings(&self, system: &System, state: &State) -> [f64; 2] {
+        let step = state.time - self.time;
+        let mut sums = [0.0; 2];
+        let mut reaction = Reaction::default();
+        for (interface, (from, to)) in
+            system.interfaces.iter().zip(self.rotations.iter().zip(&state.rotations))
+        {
+            if !is_summed_by_means(system, interface) || step <= 0.0 {
+                continue;
+            }
+            let [d0, v0] = interface.motion(&self.d, &self.d_rate, from);
+            let [d1, v1] = interface.motion(&state.d, &state.d_rate, to);
+            let d = std::array::from_fn(|k| 0.5 * (d0[k] + d1[k]));
+            // Between the mean velocity and the step's displacement over its length.
+            let v = std::array::from_fn(|k| 0.25 * (v0[k] + v1[k]) + 0.5 * (d1[k] - d0[k]) / step);
+            interface.element.force(&d, &v, &from.towards(to, 0.5), &mut reaction);
+            sums[0] += step * reaction.parametric_power;
+            sums[1] += step * reaction.dissipated_power;
+        }
+        sums
     }
 
     /// What the trapezoidal rule leaves out of the mean powers of a step where they jump, at the edges of local defects: with a
@@ -285,7 +300,6 @@ impl EnergyBalance {
 
     /// Continues from a state whose coordinates were changed between steps (recentring of a torque drive).
     pub fn restart_from(&mut self, system: &System, state: &State) {
-        self.first_of_pair = None;
         self.factors[0].clear();
         self.factors[0].extend(factors(system, state));
         self.x.copy_from(&state.x);
@@ -311,18 +325,18 @@ impl EnergyBalance {
     }
 }
 
-/// What the integral of the parabola through three powers, h₀ and h₁ apart, has beyond the trapezoids: −(h₀³ + h₁³)/12 p″; 0 for
-/// lengths too different for a parabola.
-fn beyond_trapezoids([h0, h1]: [f64; 2], [p0, p1, p2]: [f64; 3]) -> f64 {
-    if !(0.5..=2.0).contains(&(h1 / h0)) {
-        return 0.0;
-    }
-    let second_derivative = 2.0 * ((p2 - p1) / h1 - (p1 - p0) / h0) / (h0 + h1);
-    -second_derivative * (h0.powi(3) + h1.powi(3)) / 12.0
+/// Whether the work in a bearing is summed by means of steps, not by powers.
+fn is_summed_by_means(system: &System, interface: &Interface) -> bool {
+    system.drive.is_none() && interface.element.is_linear() && interface.has_no_inertia()
 }
 
+/// Parametric and dissipated power of the bearings whose work is summed by powers.
 fn powers(system: &System, state: &State) -> [f64; 2] {
-    let sum = |pick: fn(&Reaction) -> f64| state.reactions.iter().map(pick).sum();
+    let others = || {
+        let bearings = system.interfaces.iter().zip(&state.reactions);
+        bearings.filter(|(interface, _)| !is_summed_by_means(system, interface)).map(|(_, reaction)| reaction)
+    };
+    let sum = |pick: fn(&Reaction) -> f64| others().map(pick).sum();
     let parametric = match &system.drive {
         None => sum(|r| r.parametric_power),
         Some(drive) => drive.remaining_parametric_power(system, state),
@@ -350,23 +364,4 @@ fn energy_by_speed_change(system: &System, state: &State, before: &[Rotation]) -
 /// Factors of the loads that do work.
 fn factors(system: &System, state: &State) -> impl Iterator<Item = f64> {
     system.working_terms(state.time, &state.spin).map(|(factor, _)| factor)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::beyond_trapezoids;
-
-    /// Trapezoids and what the parabola has beyond them give the integral of any parabola.
-    #[test]
-    fn the_integral_of_a_parabola_is_exact() {
-        let power = |t: f64| 3.0 - 2.0 * t + 5.0 * t * t;
-        let integral = |t: f64| 3.0 * t - t * t + 5.0 * t.powi(3) / 3.0;
-        for [h0, h1] in [[0.4, 0.4], [0.3, 0.5], [0.5, 0.3]] {
-            let [p0, p1, p2] = [0.0, h0, h0 + h1].map(power);
-            let trapezoids = 0.5 * (h0 * (p0 + p1) + h1 * (p1 + p2));
-            let found = trapezoids + beyond_trapezoids([h0, h1], [p0, p1, p2]);
-            assert!((found - integral(h0 + h1)).abs() < 1e-12, "{h0} {h1}: {found}");
-        }
-        assert_eq!(beyond_trapezoids([1.0, 0.1], [1.0, 0.0, 1.0]), 0.0);
-    }
 }

@@ -132,7 +132,7 @@ codes! {
         "The lubricant film is thinner than the roughness: asperities touch, and film stiffness and friction do not hold.",
         "choose a lubricant of higher viscosity, or check temperature and roughness";
     ContactAngleLost, "contact-angle-lost", Serious,
-        "A single-row angular contact bearing slides axially until its balls carry at less than half of their angle: \
+        "A single-row angular contact bearing or a tandem pair slides axially until its balls carry at less than half of their angle: \
          nothing holds the shaft axially against its direction.",
         "preload it against a second bearing";
     OpenSide, "open-side", Serious,

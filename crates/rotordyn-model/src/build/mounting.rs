@@ -36,7 +36,7 @@ keys! {
 
 keys! {
     /// `preload = { ... }`.
-    pub(super) static PRELOAD: PreloadKeys = "Axial preload in the direction of thrust, in one of five forms." {
+    pub(super) static PRELOAD: PreloadKeys = "Axial preload in the direction of thrust, in one of five forms; rows in tandem share it." {
         force: Quantity = quantity(positive(FORCE), "Force with centred rings at speed, or of the spring.")
             .required("or another form").example("\"150 N\"");
         dry_force: Quantity = quantity(positive(FORCE), "Force with centred rings at rest.").optional()

@@ -4,8 +4,9 @@ use super::Named;
 use super::display_unit::typographic_unit;
 use crate::{Curve, Figure, Frf, FrfCurve, HeatMap, Lines, Matrix};
 use rotordyn_core::model::Quantity;
-use rotordyn_identify::mac::{fdac, frac as frac_value};
+use rotordyn_identify::mac::fdac;
 use rotordyn_linalg::Complex64;
+use rotordyn_update::correlation::frac_of_frfs;
 use rotordyn_update::state::ModelState;
 use rotordyn_update::target::{Sensor, Target, TargetFrfs, rotation_radius};
 
@@ -141,11 +142,6 @@ fn overlays(prefix: &str, measured: &TargetFrfs, stages: &[Stage]) -> Vec<Named>
 
 fn frac(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], stage: &Stage) -> Figure {
     let model = &stage.state.linearised.model;
-    let value = |r: usize, e: usize| match measured.is_nonzero(r, e) {
-        true => frac_value(&measured.values[r][e], &computed[r][e]),
-        false => f64::NAN,
-    };
-    let columns = measured.references.len();
     Figure::Matrix(Matrix {
         title: "FRAC: frequency response assurance criterion of every FRF".into(),
         note: note(title, stage),
@@ -153,7 +149,7 @@ fn frac(title: &str, measured: &TargetFrfs, computed: &[Vec<Vec<Complex64>>], st
         column_name: "force".into(),
         rows: measured.responses.iter().map(|s| s.name(model)).collect(),
         columns: measured.references.iter().map(|s| s.name(model)).collect(),
-        value: (0..measured.responses.len() * columns).map(|k| value(k / columns, k % columns)).collect(),
+        value: frac_of_frfs(measured, computed).concat(),
         quantity: "FRAC".into(),
         marked: Vec::new(),
     })
