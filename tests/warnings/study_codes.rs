@@ -118,9 +118,8 @@ pub const LINEAR: &[Case] = &[
 
 pub const RUNS: &[Case] = &[
     (Code::EnergyBalance, || {
-        let of =
-            |step: &str| run_up(3000.0, &format!("[study.run_up]\nstep = \"{step}\"\ncutoff = \"2 kHz\"\n"));
-        command("run-up", &of("100 us"), &of("500 us"), &[])
+        let motor = include_str!("../../assets/init/motor.toml");
+        command("run-up", motor, &replaced(motor, "step = \"20 us\"", "step = \"400 us\""), &[])
     }),
     (Code::TimeStep, || {
         let fan = include_str!("../../assets/init/fan.toml");

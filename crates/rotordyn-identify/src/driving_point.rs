@@ -129,15 +129,15 @@ mod tests {
     #[test]
     fn signs_quantities_and_delays_are_told_apart() {
         assert_eq!(fault(&modes(0.0, 0.0)), None);
-        let told = |turn: f64, tau: f64| fault(&modes(turn, tau)).unwrap();
-        assert!(told(0.5 * TAU, 0.0).contains("negative"));
-        assert!(told(0.25 * TAU, 0.0).contains("one time derivative more"));
-        assert!(told(-0.25 * TAU, 0.0).contains("one time derivative less"));
+        let text_of = |turn: f64, tau: f64| fault(&modes(turn, tau)).unwrap();
+        assert!(text_of(0.5 * TAU, 0.0).contains("negative"));
+        assert!(text_of(0.25 * TAU, 0.0).contains("one time derivative more"));
+        assert!(text_of(-0.25 * TAU, 0.0).contains("one time derivative less"));
         for tau in [7.3e-4, -4e-4] {
             let found = delay(&modes(0.0, tau)).unwrap();
             assert!((found - tau).abs() < 5e-5, "{found}");
         }
-        assert!(told(0.0, 7.3e-4).contains("of the response"), "{}", told(0.0, 7.3e-4));
+        assert!(text_of(0.0, 7.3e-4).contains("of the response"), "{}", text_of(0.0, 7.3e-4));
         // A twentieth of a millisecond is 5 degrees at 260 Hz.
         assert_eq!(fault(&modes(0.0, 5e-5)), None);
     }

@@ -37,7 +37,8 @@ const AFTER: f64 = 0.01;
 ///
 /// `files` have the same channels at the same points: their hits are averaged. Double hits and hits with force
 /// overload are rejected, hits with response overload only for that response. After the contact the force is set
-/// to zero (force window). Offsets of the channels, what they read before the hits, are removed.
+/// to zero (force window), unless it has the undershoot of an AC-coupled input. Offsets of the channels, what they read before the
+/// hits, are removed.
 ///
 /// # Errors
 /// No force, records of different rates or lengths, no usable hit, NaN.
@@ -68,6 +69,7 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
         ));
     }
     let mut force_reported = false;
+    let mut undershoot_reported = false;
     let mut single = Vec::new();
     let responses = time.iter().filter(|r| r.name != force.name);
     for (number, response) in responses.enumerate() {
@@ -100,7 +102,20 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
             ));
         }
         let after = (AFTER * rate).round() as usize;
-        let windows = ImpactWindows { force_length: Some(2 * contact + after), ..windows };
+        let kept = 2 * contact + after;
+        // The part of an undershoot that a window cuts off belongs to the force: all channels of an AC-coupled recorder have it.
+        let undershoot = median_undershoot(&good, kept, rate);
+        if let Some(share) = undershoot.filter(|_| !undershoot_reported) {
+            undershoot_reported = true;
+            warnings.push(format!(
+                "`{}` swings below zero after the hits by {:.0} % of their impulse, as AC-coupled inputs do: no force window is \
+                 applied; with DC coupling, or a lower corner frequency, the FRFs have less noise",
+                force.name,
+                100.0 * share
+            ));
+        }
+        let force_length = undershoot.is_none().then_some(kept);
+        let windows = ImpactWindows { force_length, ..windows };
         let hits: Vec<Hit> = good.iter().map(OwnHit::as_hit).collect();
         let estimate = frf_from_hits(&hits, rate, windows)?;
         out.extend(records(force, response, number, estimate, good.len(), test.estimator));
@@ -116,6 +131,29 @@ pub fn frfs(files: &[MeasuredData], test: &ImpactTest) -> Result<(Vec<Record>, V
         ));
     }
     Ok((out, warnings))
+}
+
+/// Time after the hit \[s\] in which an undershoot is looked for, the share of the impulse from which it matters, and its least
+/// distance from 0 in standard errors.
+const UNDERSHOOT_TIME: f64 = 0.5;
+const UNDERSHOOT: f64 = 0.02;
+const CLEAR_UNDERSHOOT: f64 = 6.0;
+
+/// Share of the impulse of the hits that is undershoot after their first `kept` samples, of the median hit; `None` without one.
+fn median_undershoot(hits: &[OwnHit], kept: usize, rate: f64) -> Option<f64> {
+    let share = |hit: &OwnHit| {
+        let (pulse, after) = hit.force.split_at(kept.min(hit.force.len()));
+        let after = &after[..after.len().min((UNDERSHOOT_TIME * rate).round() as usize)];
+        let count = after.len().max(1) as f64;
+        // Noise from the differences of neighbours, to which a slow swing adds nothing; with that of the offset taken off.
+        let noise = (after.windows(2).map(|w| 0.5 * (w[1] - w[0]).powi(2)).sum::<f64>() / count).sqrt();
+        let of_offset = MEDIAN_ERROR * noise / (QUIET * rate).max(1.0).sqrt();
+        let error = noise * count.sqrt() + of_offset * count;
+        let (impulse, swing) = (pulse.iter().sum::<f64>(), after.iter().sum::<f64>());
+        if swing.abs() > CLEAR_UNDERSHOOT * error && impulse != 0.0 { -swing / impulse } else { 0.0 }
+    };
+    let share = median(hits.iter().map(share).collect());
+    (share > UNDERSHOOT).then_some(share)
 }
 
 /// A hit without the offsets of its channels.
@@ -138,6 +176,9 @@ const MIN_QUIET: usize = 16;
 const OF_FORCE: f64 = 6.0;
 const OF_RESPONSE: f64 = 3.0;
 
+/// Standard error of a median of normal deviates over that of their mean.
+const MEDIAN_ERROR: f64 = 1.2533;
+
 /// Median of samples at rest, and the deviation about it.
 fn rest(quiet: &[f64]) -> [f64; 2] {
     let middle = median(quiet.to_vec());
@@ -147,8 +188,7 @@ fn rest(quiet: &[f64]) -> [f64; 2] {
 /// Offset of a force at rest; 0 if noise may have made it.
 fn force_offset(quiet: &[f64]) -> f64 {
     let [middle, deviation] = rest(quiet);
-    // Standard error of a median of normal deviates.
-    let error = 1.2533 * deviation / (quiet.len().max(1) as f64).sqrt();
+    let error = MEDIAN_ERROR * deviation / (quiet.len().max(1) as f64).sqrt();
     if middle.abs() > OF_FORCE * error { middle } else { 0.0 }
 }
 

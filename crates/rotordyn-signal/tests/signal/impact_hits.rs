@@ -157,6 +157,38 @@ fn offsets_of_the_channels_do_not_change_the_frf() {
     }
 }
 
+/// AC coupling of all channels takes the same from force and response: their ratio stays, if the force keeps its undershoot. Noise
+/// and offsets make none.
+#[test]
+fn ac_coupled_channels_do_not_change_the_frf() {
+    let rate = 2048.0;
+    let test = ImpactTest { block: Some(1.5), ..ImpactTest::default() };
+    let frf = |corner_hz: f64| {
+        let mut record = test_record([0.0, 0.0], rate);
+        let keeps = 1.0 / (1.0 + std::f64::consts::TAU * corner_hz / rate);
+        for channel in &mut record.records {
+            let Values::Real(values) = &mut channel.values else { panic!() };
+            let (mut before, mut out) = (values[0], 0.0);
+            for v in values.iter_mut() {
+                out = keeps * (out + *v - before);
+                before = std::mem::replace(v, out);
+            }
+        }
+        let (records, warnings) = frfs(&[record], &test).unwrap();
+        let frf = records.into_iter().find(|r| r.kind == Kind::Frf).unwrap().frf().unwrap().to_vec();
+        (frf, warnings.iter().any(|text| text.contains("AC-coupled")))
+    };
+    let (plain, named) = frf(0.0);
+    assert!(!named);
+    let largest = plain.iter().skip(3).map(|h| h.norm()).fold(0.0, f64::max);
+    for corner in [0.3, 1.0, 3.0] {
+        let (found, named) = frf(corner);
+        assert!(named, "{corner} Hz");
+        let off = found.iter().zip(&plain).skip(6).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+        assert!(off < 5e-3 * largest, "{corner} Hz: {off} of {largest}");
+    }
+}
+
 /// The amplitude of each mode at the end of a block is e^{−σT}: of an acceleration of which the high mode makes the peak
 /// the low one is still there.
 #[test]
