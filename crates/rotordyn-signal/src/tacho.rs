@@ -2,6 +2,8 @@
 
 pub mod alias;
 mod counts;
+mod marked_counts;
+pub mod marks;
 
 use std::collections::VecDeque;
 
@@ -11,6 +13,8 @@ use super::statistics::median;
 use rotordyn_linalg::pchip::Pchip;
 
 use counts::{MOST_PITCHES, best_counts};
+use marked_counts::marked_counts;
+use marks::Marks;
 
 /// Typical intervals between pulses over which a channel has its local lowest and highest value.
 const ENVELOPE_INTERVALS: f64 = 4.0;
@@ -165,6 +169,8 @@ pub struct PulseTrain {
     pub missing: usize,
     /// Pulses that were found to be none and dropped.
     pub dropped: usize,
+    /// The marks of the wheel from that of the first pulse kept on, where they are not even.
+    pub marks: Option<Marks>,
 }
 
 impl PulseTrain {
@@ -173,7 +179,8 @@ impl PulseTrain {
     /// Of all ways to keep pulses and to give each interval a whole number n of pitches (up to 6, or what the speeds on both
     /// sides of a long gap make of it), the one of least Σ |ln v_k/v_{k−1}| + 1.3 Σ ln n + dropped pulses, v = n/Δt: a gap
     /// within a run is bridged, a start from rest, whose first intervals halve from one to the next, is not; where the same
-    /// n > 1 goes on (every second pulse missing for a time), only its first interval costs 1.3 ln n. `times` \[s\] increasing, `per_revolution` pulses.
+    /// n > 1 goes on (every second pulse missing for a time), only its first interval costs 1.3 ln n. Marks that are not even in the same way in every revolution, as of a wheel with teeth
+    /// left out, are counted where they are ([`Marks`]). `times` \[s\] increasing, `per_revolution` pulses, or pitches of such a wheel.
     /// Errors: NaN, times that do not increase, fewer than four pulses.
     pub fn new(times: &[f64], per_revolution: usize) -> Result<Self, SignalError> {
         check_record("pulse times", times)?;
@@ -182,6 +189,24 @@ impl PulseTrain {
         if let Some(index) = times.windows(2).position(|w| w[1] <= w[0]) {
             let expected = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
             return Err(SignalError::NonUniform { index, expected, given: times[index + 1] - times[index] });
+        }
+        let marked = Marks::of_pulses(times, per_revolution)
+            .and_then(|marks| marked_counts(times, &marks).map(|found| (found, marks)));
+        if let Some((found, mut marks)) = marked {
+            marks.pitches.rotate_left(found.first_mark);
+            let mut turned = 0;
+            let mut revolutions = vec![0.0];
+            for count in &found.counts {
+                turned += count;
+                revolutions.push(marks.turns(0, turned));
+            }
+            return Ok(PulseTrain {
+                missing: turned - found.counts.len(),
+                dropped: times.len() - found.kept.len(),
+                times: found.kept.iter().map(|&k| times[k]).collect(),
+                revolutions,
+                marks: Some(marks),
+            });
         }
         let (kept, counts) = best_counts(times);
         let mut revolutions = vec![0.0];
@@ -195,6 +220,7 @@ impl PulseTrain {
             dropped: times.len() - kept.len(),
             times: kept.iter().map(|&k| times[k]).collect(),
             revolutions,
+            marks: None,
         })
     }
 
@@ -254,6 +280,9 @@ impl PulseTrain {
 
     /// Turns from one pulse to the next.
     pub(super) fn pitch(&self) -> f64 {
+        if let Some(marks) = &self.marks {
+            return marks.pitch();
+        }
         // Missing pulses make pitches of several.
         self.revolutions.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min)
     }

@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 
 use super::order_tracks::OrderTracks;
 use super::tacho::PulseTrain;
+use super::tacho::marks::MarkKind;
 
 /// Pulses on either side of a cubic that jitter is measured against, and the weight of its own pulse in it (Savitzky-Golay,
 /// nine points): the share of white jitter that it follows.
@@ -57,18 +58,20 @@ impl Jitter {
     /// σ = 2π p √(mean (Δᵈt/h)² / C(2d, d)), h the mean interval of the d + 1 pulses, p turns a pulse: for white jitter the same
     /// for every d, while a speed that swings within a few turns has ever less of it: the least of d = 3 to 6 and of the deviation from cubics
     /// (times rounded to samples are not white).
+    /// Of marks that are not even the times are first taken to even ones.
     /// `None` for fewer than 18 pulses or 8 runs of 7 without a missing one.
     pub fn of_pulses(train: &PulseTrain) -> Option<Self> {
         let pitch = train.pitch();
         if train.times.len() < MIN_PULSES {
             return None;
         }
+        let times = even_times(train);
         let of = |order: usize| {
             let mut weights = vec![1.0];
             for k in 0..order {
                 weights.push(-weights[k] * (order - k) as f64 / (k + 1) as f64);
             }
-            let runs = train.times.windows(order + 1).zip(train.revolutions.windows(order + 1));
+            let runs = times.windows(order + 1).zip(train.revolutions.windows(order + 1));
             let whole = runs.filter(|(_, r)| r[order] - r[0] < (order as f64 + 0.5) * pitch);
             let squares: Vec<f64> = whole
                 .map(|(t, _)| {
@@ -140,4 +143,23 @@ impl Jitter {
         let all = (0..rms.len()).filter_map(worst);
         all.filter(|found| found.leak > share * found.amplitude).collect()
     }
+}
+
+/// Pulse times \[s\] as they were at even marks: each moved by its mark's deviation at the mean speed of the revolution about it.
+fn even_times(train: &PulseTrain) -> Vec<f64> {
+    let uneven = train.marks.as_ref().filter(|marks| matches!(marks.kind, MarkKind::Uneven { .. }));
+    let Some(marks) = uneven else { return train.times.clone() };
+    let count = marks.pitches.len();
+    let places: Vec<f64> = (0..=count).map(|mark| marks.turns(0, mark)).collect();
+    let last = train.times.len() - 1;
+    let moved = |k: usize| {
+        let (from, to) = (k.saturating_sub(count.div_ceil(2)), (k + count.div_ceil(2)).min(last));
+        let seconds =
+            (train.times[to] - train.times[from]) / (train.revolutions[to] - train.revolutions[from]);
+        let turn = train.revolutions[k].rem_euclid(1.0);
+        let mark = (0..=count).min_by(|a, b| (places[*a] - turn).abs().total_cmp(&(places[*b] - turn).abs()));
+        let mark = mark.unwrap_or(0);
+        train.times[k] + (mark as f64 / count as f64 - places[mark]) * seconds
+    };
+    (0..=last).map(moved).collect()
 }

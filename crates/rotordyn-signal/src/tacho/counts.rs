@@ -4,13 +4,13 @@ use crate::statistics::median;
 
 /// Most pitches that are tried for every interval, and most pulses dropped in a row.
 pub(super) const MOST_PITCHES: usize = 6;
-const MOST_DROPPED: usize = 2;
+pub(super) const MOST_DROPPED: usize = 2;
 /// Cost of n pitches in one interval over ln n, where the one before holds another number or has another speed: a gap within a run saves 2 ln n, a start from rest would save ln n.
-const MISSING_COST: f64 = 1.3;
+pub(super) const MISSING_COST: f64 = 1.3;
 /// |ln v/v'| of intervals of one speed.
-const SAME_SPEED: f64 = 0.1;
+pub(super) const SAME_SPEED: f64 = 0.1;
 /// Cost of dropping a pulse: one in the middle of an interval saves 2 ln 2.
-const DROPPED_COST: f64 = 1.0;
+pub(super) const DROPPED_COST: f64 = 1.0;
 
 /// Intervals on either side of a gap that give the speed there.
 const AROUND_A_GAP: usize = 8;

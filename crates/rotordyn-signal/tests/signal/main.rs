@@ -18,6 +18,7 @@ mod smear;
 mod speed_line;
 mod tacho;
 mod tacho_jitter;
+mod tacho_marks;
 mod vold_kalman;
 
 use rotordyn_signal::Complex;

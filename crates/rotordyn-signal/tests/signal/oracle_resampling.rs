@@ -33,7 +33,7 @@ fn shaft_angle_between_pulses() {
     let times = numbers(&case["times"]);
     let revolutions = (0..times.len()).map(|k| k as f64).collect();
     let samples = (times[times.len() - 1] * 2000.0) as usize + 1;
-    let train = PulseTrain { times, revolutions, missing: 0, dropped: 0 };
+    let train = PulseTrain { times, revolutions, missing: 0, dropped: 0, marks: None };
     let (angle, first) = train.angle(2000.0, samples).unwrap();
     assert_eq!(first, count(&case["first"]));
     let every_eleventh: Vec<f64> = angle.into_iter().step_by(11).collect();
