@@ -1,10 +1,15 @@
 //! Samples that stand at a limit of their channel (clipping, overload).
 
+use super::dropout::without_far_samples;
+
 /// Heights below the largest value, over the range of the record, within which samples count as at the limit: the
 /// highest admits noise behind the limit.
 const HEIGHTS: [f64; 4] = [1e-4, 1e-3, 3e-3, 1e-2];
 /// Share of the samples within four heights that are within one: half of a sine's are, nearly all of a clipped one's.
 const SHARE: f64 = 0.8;
+/// Largest share of the samples at a limit: with values far from all others the range is theirs, and all samples together are
+/// near one end of it.
+const MOST_AT_LIMIT: f64 = 0.75;
 /// Least number of times that the record is at the limit, and of samples there each time.
 const LEAST_TIMES: usize = 5;
 const SAMPLES_EACH: usize = 3;
@@ -31,6 +36,8 @@ pub struct Clipping {
 /// both are the samples at the limit. `record` (N) of finite values. `None` for a record that is not clipped, or too
 /// coarse (fewer than 200 steps of its converter) to tell.
 pub fn clipping(record: &[f64]) -> Option<Clipping> {
+    let plain = without_far_samples(record);
+    let record = plain.as_deref().unwrap_or(record);
     let mut sorted = record.to_vec();
     sorted.sort_by(f64::total_cmp);
     let range = sorted.last()? - sorted.first()?;
@@ -53,7 +60,8 @@ fn at_limit(record: &[f64], sorted: &[f64], height: f64, range: f64, sign: f64) 
         false => sorted.partition_point(|x| below(*x) <= h),
     };
     let samples = within(height);
-    if (samples as f64) < SHARE * within(4.0 * height) as f64 {
+    let is_most = samples as f64 > MOST_AT_LIMIT * sorted.len() as f64;
+    if is_most || (samples as f64) < SHARE * within(4.0 * height) as f64 {
         return None;
     }
     let (mut before, mut armed) = (Vec::new(), true);
@@ -153,6 +161,24 @@ mod tests {
         let clean = growing_sine(0.0);
         let soft: Vec<f64> = clean.iter().zip(&noise).map(|(x, n)| x.clamp(-9.0, 1.5) + n - x).collect();
         assert!((clipping(&soft).unwrap().limit - 1.5).abs() < 0.01);
+    }
+
+    /// Values for missing samples, and others far away, make no limit and hide none.
+    #[test]
+    fn values_far_from_all_others_are_no_limit() {
+        for (runs, length) in [(4, 1), (20, 1), (5, 2), (12, 8)] {
+            for value in [9999.0, -9999.0] {
+                for limit in [9.0, 1.5] {
+                    let mut record = limited(&growing_sine(0.01), -9.0, limit);
+                    (0..runs).for_each(|run| record[900 * run + 300..900 * run + 300 + length].fill(value));
+                    let found = clipping(&record).map(|found| found.limit);
+                    assert_eq!(found, (limit == 1.5).then_some(limit), "{runs} {length} {value}");
+                }
+            }
+        }
+        let mut record = growing_sine(0.01);
+        (0..20).for_each(|run| record[900 * run + 300] = 1000.0 + 50.0 * run as f64);
+        assert_eq!(clipping(&record), None);
     }
 
     /// Quantised, steady and finely sampled sines have many equal largest values; so has a shaft at rest at its highest

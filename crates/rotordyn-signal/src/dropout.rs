@@ -1,5 +1,7 @@
 //! Channels that are dead, hold one value for a while, or have single samples that no signal has.
 
+use std::collections::HashSet;
+
 /// What is wrong with a channel by its samples alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Dropout {
@@ -9,6 +11,9 @@ pub enum Dropout {
     Held { index: usize, samples: usize, value: f64 },
     /// `samples` single samples are `ratio` times as far from the median as any other; the first is at `index`.
     Spikes { index: usize, samples: usize, value: f64, ratio: f64 },
+    /// `samples` samples, some in succession, have one value `ratio` times as far from the median as any other; the first
+    /// is at `index`.
+    FarValue { index: usize, samples: usize, value: f64, ratio: f64 },
 }
 
 /// Fewest equal samples in succession that count.
@@ -21,16 +26,20 @@ const LONGER: usize = 8;
 const LEAST_STEP: f64 = 0.02;
 /// The same over the smallest difference of two samples in succession, a step of the converter.
 const LEAST_CONVERTER_STEPS: f64 = 2.5;
+/// Distance from all other values over their range, from which a value at an end of the record is no rest.
+const APART: f64 = 0.05;
 /// Most single samples, and how many times as far from the median as any other they are.
 const MOST_SPIKES: usize = 3;
 const SPIKE_RATIO: f64 = 30.0;
+/// Largest share of a record that has one value far from all others, such as −9999 for a value that is missing.
+const MOST_FAR: f64 = 0.01;
 /// Fewest samples among which one is absurd.
 const LEAST_SAMPLES: usize = 100;
 
 /// What is wrong with a channel; empty for one that may be right. `record` of finite values.
 ///
-/// A run of equal values is no gap at the start (at rest, before a trigger) or at the value of the start, at the largest or
-/// smallest value (a limit, a square wave), in a signal of few levels (a tacho), where other runs are of its length (few steps of the converter), or if the
+/// A run of equal values is no gap at the start (at rest, before a trigger) or at the value of the start, unless all else is
+/// far from it; nor at the largest or smallest value (a limit, a square wave), unless the record ends there; nor in a signal of few levels (a tacho), where other runs are of its length (few steps of the converter), or if the
 /// record leaves its value without a step (at rest).
 pub fn dropouts(record: &[f64]) -> Vec<Dropout> {
     let Some(first) = record.first().filter(|_| record.len() > 1) else { return Vec::new() };
@@ -89,6 +98,13 @@ fn held(record: &[f64]) -> Option<Dropout> {
         let end = index + samples;
         let beyond = |k: Option<usize>| k.and_then(|k| record.get(k)).map_or(0.0, |x| (x - value).abs());
         let steps = beyond(index.checked_sub(1)).max(beyond(Some(end)));
+        // Nothing else is near: no rest, and no limit that is reached again.
+        let far = APART * (high - low);
+        let is_apart = value > high + far || value < low - far;
+        let alone = long.iter().filter(|(index, _)| record[*index] == value).count() == 1;
+        if (at_start(index) || end == record.len()) && is_apart && alone {
+            return steps > step;
+        }
         // At a limit of the channel; a dead sensor of a channel with an offset is far from it.
         let at_limit = (value >= high && value <= high + 0.5 * (high - low))
             || (value <= low && value >= low - 0.5 * (high - low));
@@ -108,8 +124,15 @@ fn deviation(values: &[f64]) -> f64 {
     (values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count).sqrt()
 }
 
-/// Single samples far from all others. Pulses last several samples, and shocks ring.
-fn spikes(record: &[f64]) -> Option<Dropout> {
+/// Samples far from all others, the farthest first, and how many times as far from the median as those.
+///
+/// Up to three, or more of one value.
+struct Far {
+    samples: Vec<usize>,
+    ratio: f64,
+}
+
+fn far_samples(record: &[f64]) -> Option<Far> {
     if record.len() < LEAST_SAMPLES {
         return None;
     }
@@ -117,24 +140,40 @@ fn spikes(record: &[f64]) -> Option<Dropout> {
     let (_, median, _) = sorted.select_nth_unstable_by(record.len() / 2, f64::total_cmp);
     let median = *median;
     let distance = |k: usize| (record[k] - median).abs();
-    // The farthest samples, the farthest first.
-    let mut far: Vec<usize> = Vec::with_capacity(MOST_SPIKES + 2);
-    for k in 0..record.len() {
-        let place = far.partition_point(|&other| distance(other) >= distance(k));
-        if place <= MOST_SPIKES {
-            far.insert(place, k);
-            far.truncate(MOST_SPIKES + 1);
-        }
-    }
-    (1..=MOST_SPIKES).find_map(|count| {
-        let (spikes, next) = (&far[..count], distance(*far.get(count)?));
-        let ratio = distance(spikes[count - 1]) / next;
-        let are_single = spikes.iter().all(|k| spikes.iter().all(|other| k.abs_diff(*other) != 1));
-        let index = spikes.iter().copied().min()?;
+    let most = ((MOST_FAR * record.len() as f64) as usize).max(MOST_SPIKES);
+    let mut far: Vec<usize> = (0..record.len()).collect();
+    let farther = |a: &usize, b: &usize| distance(*b).total_cmp(&distance(*a));
+    far.select_nth_unstable_by(most, farther);
+    far.truncate(most + 1);
+    far.sort_by(farther);
+    (1..=most).find_map(|count| {
+        let next = distance(far[count]);
+        let ratio = distance(far[count - 1]) / next;
+        let samples = &far[..count];
+        let is_one = || samples.iter().all(|k| record[*k] == record[samples[0]]);
         // A record that is zero but for pulses of one sample is made so.
-        let found = next > 0.0 && ratio >= SPIKE_RATIO && are_single;
-        found.then(|| Dropout::Spikes { index, samples: count, value: record[index], ratio })
+        let found = next > 0.0 && ratio >= SPIKE_RATIO && (count <= MOST_SPIKES || is_one());
+        found.then(|| Far { samples: samples.to_vec(), ratio })
     })
+}
+
+/// Single samples far from all others, or samples of one value. Pulses last several samples, and shocks ring.
+fn spikes(record: &[f64]) -> Option<Dropout> {
+    let Far { samples: far, ratio } = far_samples(record)?;
+    let index = far.iter().copied().min()?;
+    let (samples, value) = (far.len(), record[index]);
+    let are_single = || far.iter().all(|k| far.iter().all(|other| k.abs_diff(*other) != 1));
+    if samples <= MOST_SPIKES && are_single() {
+        return Some(Dropout::Spikes { index, samples, value, ratio });
+    }
+    let is_one = far.iter().all(|k| record[*k] == value);
+    is_one.then_some(Dropout::FarValue { index, samples, value, ratio })
+}
+
+/// The record without samples that are far from all others.
+pub(crate) fn without_far_samples(record: &[f64]) -> Option<Vec<f64>> {
+    let far: HashSet<usize> = far_samples(record)?.samples.into_iter().collect();
+    Some((0..record.len()).filter(|k| !far.contains(k)).map(|k| record[k]).collect())
 }
 
 #[cfg(test)]
@@ -221,6 +260,54 @@ mod tests {
             })
             .collect();
         assert_eq!(dropouts(&shocks), []);
+    }
+
+    /// One value far from all others, in runs of a few samples and in more than three places. A tacho has two levels, a
+    /// hammer's pulse at its limit has flanks.
+    #[test]
+    fn values_for_missing_samples_are_found() {
+        for (runs, length) in [(1, 2), (1, 3), (1, 8), (4, 1), (20, 1), (5, 2), (3, 17)] {
+            let mut record = noise(20_000);
+            (0..runs).for_each(|run| record[700 * run + 300..700 * run + 300 + length].fill(-9999.0));
+            let found = dropouts(&record);
+            let [Dropout::FarValue { index: 300, samples, value: -9999.0, ratio }] = found[..] else {
+                panic!("{runs} {length}: {found:?}")
+            };
+            assert!(samples == runs * length && ratio > 1000.0, "{found:?}");
+        }
+        let mut random = uniform(3);
+        let pulses: Vec<f64> =
+            (0..20_000).map(|k| if k % 4000 < 60 { 5.0 } else { 0.0 } + 0.01 * random()).collect();
+        assert_eq!(dropouts(&pulses), []);
+        let hit: Vec<f64> = (0..4000)
+            .map(|k| (90.0 - (f64::from(k) - 500.0).powi(2)).clamp(0.0, 60.0) + 0.001 * random())
+            .collect();
+        assert_eq!(dropouts(&hit), []);
+    }
+
+    /// A channel that comes late or ends early at a value that the signal does not reach.
+    #[test]
+    fn gaps_at_the_ends_are_found() {
+        for (from, samples, value) in
+            [(0, 2000, 5.0), (0, 2000, -3.0), (18_000, 2000, 2.5), (15_000, 5000, -2.5)]
+        {
+            let found = dropouts(&with_gap(from, samples, value));
+            assert_eq!(found, [Dropout::Held { index: from, samples, value }], "{from}");
+        }
+        // At rest at a limit: it begins and ends without a step.
+        let lift: Vec<f64> = (0..9000)
+            .map(|k| {
+                if k < 2000 {
+                    -4.0
+                } else {
+                    -4.0 * (-0.01 * f64::from(k - 2000)).exp() + 0.3 * (0.3 * f64::from(k - 2000)).sin()
+                }
+            })
+            .collect();
+        let dropped: Vec<f64> = lift.iter().rev().copied().collect();
+        for record in [lift, dropped] {
+            assert!(!matches!(dropouts(&record)[..], [Dropout::Held { .. }]));
+        }
     }
 
     /// A vibration that decays into the last step of the converter, behind a first sample at another value too.

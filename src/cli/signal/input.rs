@@ -335,9 +335,13 @@ pub fn cut_time_range(
 /// What is said of a channel whose samples stand at a limit.
 pub fn clipping_text(channel: &SignalChannel) -> Option<String> {
     let found = clipping(&channel.samples)?;
+    let limit = format!("{:.4e} {}", found.limit, channel.unit);
     Some(format!(
-        "`{}` is clipped: {} samples stand at {:.4e} {}, in {} excursions: its levels are too low and its harmonics too high",
-        channel.name, found.samples, found.limit, channel.unit, found.times
+        "`{}` is clipped: {} samples stand at {}, in {} excursions: its levels are too low and its harmonics too high",
+        channel.name,
+        found.samples,
+        limit.trim_end(),
+        found.times
     ))
 }
 
@@ -367,10 +371,22 @@ pub fn dropout_texts(channel: &SignalChannel) -> Vec<(Code, String)> {
             let far = format!("{ratio:.0} times as far from the median as any other");
             (Code::RecordSpike, format!("`{name}` has {samples} {far}: {value} at {at}"))
         }
+        Dropout::FarValue { index, samples, value, ratio } => {
+            let (value, at) = (of_unit(value), time(index));
+            let text = format!(
+                "`{name}` has {samples} samples of {value}, {ratio:.0} times as far from the median as any other, the first at {at}: a \
+                 value for samples that are missing"
+            );
+            (Code::RecordSpike, text)
+        }
     };
     // The pulse of a hammer may last a sample, and a force window leaves zeros behind it.
     let is_of_hammer = |found: &Dropout| {
-        channel.unit == "N" && matches!(found, Dropout::Held { value: 0.0, .. } | Dropout::Spikes { .. })
+        channel.unit == "N"
+            && matches!(
+                found,
+                Dropout::Held { value: 0.0, .. } | Dropout::Spikes { .. } | Dropout::FarValue { .. }
+            )
     };
     dropouts(all).into_iter().filter(|found| !is_of_hammer(found)).map(text).collect()
 }

@@ -36,7 +36,7 @@ pub struct Analysed {
     /// Contents of the file that were not read.
     pub left_out: Option<String>,
     pub warnings: Vec<String>,
-    /// Gaps and absurd samples of the channel.
+    /// Gaps, absurd samples and a limit of the channel.
     pub dropouts: Vec<(Code, String)>,
     /// Whether the shaft speed was searched in the record and not found.
     pub speed_not_found: bool,
@@ -99,6 +99,7 @@ impl Job<'_> {
                 return Err(Failure::Input(format!("`{}`: {reason}", channel.name)));
             }
             out.dropouts = input::dropout_texts(&channel);
+            out.dropouts.extend(input::clipping_text(&channel).map(|text| (Code::ClippedRecord, text)));
         }
         drop(file);
         let judged = match &self.bearing {
