@@ -61,7 +61,8 @@ pub fn find_peaks(axis: &[f64], amplitude: &[f64], threshold: f64) -> Result<Vec
 ///
 /// For a steady sine between bins the ratio r of the highest bin's larger neighbour to it gives the offset δ = (2r − 1)/(1 + r)
 /// towards that neighbour, and the amplitude is that of the bin times πδ (1 − δ²)/sin πδ; both are exact apart from the
-/// mirrored line and noise. Errors: as [`find_peaks`].
+/// mirrored line and noise. Bin 1 is none: it lies in the main lobe of the mean, of which it shows as much as bin 0.
+/// Errors: as [`find_peaks`].
 pub fn find_hann_lines(axis: &[f64], amplitude: &[f64], threshold: f64) -> Result<Vec<Peak>, SignalError> {
     let peaks = find_peaks(axis, amplitude, 0.0)?;
     let line = |peak: Peak| {
@@ -77,7 +78,8 @@ pub fn find_hann_lines(axis: &[f64], amplitude: &[f64], threshold: f64) -> Resul
             amplitude: mid / WindowKind::Hann.line_shape(offset),
         }
     };
-    Ok(peaks.into_iter().map(line).filter(|peak| peak.amplitude >= threshold).collect())
+    let lines = peaks.into_iter().filter(|peak| peak.bin > 1).map(line);
+    Ok(lines.filter(|peak| peak.amplitude >= threshold).collect())
 }
 
 /// Order tracing: peak of each row of a spectrogram within ± `half_width` of a line; `None` if there is none.

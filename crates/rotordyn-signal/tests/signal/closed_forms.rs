@@ -262,3 +262,15 @@ fn waterfall_averages_near_each_speed() {
     assert_close("mean power", rows.amplitude[1], 10f64.sqrt(), 1e-14);
     assert_eq!(&rows.amplitude[2..], &[5.0, 6.0]);
 }
+
+/// An offset is no line: a record of 100 V with 1 mV at 10 Hz has that one.
+#[test]
+fn offset_is_no_line() {
+    let record = sampled(4000, 1000.0, |t| 100.0 + 1e-3 * (TAU * 10.0 * t).sin());
+    let found = amplitude_spectrum(&record, 1000.0, WindowKind::Hann, Level::Peak).unwrap();
+    assert_close("offset", found.values[0], 100.0, 1e-9);
+    let mut lines = find_hann_lines(&found.frequencies, &found.values, 0.0).unwrap();
+    lines.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+    assert_close("line", lines[0].position, 10.0, 1e-3);
+    assert_close("level", lines[0].amplitude, 1e-3, 1e-6);
+}
