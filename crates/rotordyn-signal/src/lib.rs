@@ -11,6 +11,7 @@
 //! | [`order`] | order tracking: order spectrogram, order cuts, averaged order spectrum |
 //! | [`vold_kalman`] | Vold-Kalman order tracking: complex amplitudes of several orders, sample by sample |
 //! | [`order_background`] | background beside an order, and how certain a level over it is |
+//! | [`order_neighbours`] | lines of other orders in the band of an order |
 //! | [`order_tracks`] | amplitude and phase of orders over time and speed, from the Vold-Kalman filter |
 //! | [`waterfall`] | waterfall (cascade) plot: spectra at chosen speeds |
 //! | [`ridge`] | peak interpolation, peaks of a spectrogram near a given line |
@@ -66,6 +67,7 @@ pub mod motion_classification;
 pub mod orbit;
 pub mod order;
 pub mod order_background;
+pub mod order_neighbours;
 pub mod order_tracks;
 pub mod poincare;
 mod quantity;

@@ -1,7 +1,8 @@
 //! Orders asked for by number or by name: 7, 1x, BPFO, "2 BPFO".
 
-use rotordyn::results::{BearingWithOrders, OrderLine, SignalResult};
+use rotordyn::results::{BearingWithOrders, OrderLine, ShaftOrders, SignalResult};
 use rotordyn::signal::order::smear::Smear;
+use rotordyn::signal::order_neighbours::Neighbour;
 use rotordyn::signal::order_tracks::orders_in_one_band;
 use rotordyn::signal::tacho_jitter::JitterLeak;
 
@@ -25,17 +26,81 @@ pub fn lines(
     lines
 }
 
-/// A warning for every pair of tracked orders that the bandwidth does not separate.
+/// A warning for every pair of tracked orders that the bandwidth does not separate, and for every cut and track that reads a line of
+/// another order.
 pub fn one_band_warnings(result: &SignalResult) -> Vec<String> {
     let Some(found) = &result.orders else { return Vec::new() };
-    let Some(tracks) = &found.tracks else { return Vec::new() };
-    let orders: Vec<f64> = tracks.tracks.iter().map(|track| track.order).collect();
-    let text = |pair: [usize; 2]| {
-        let [a, b] = pair.map(|k| &found.cuts[k].0.label);
-        let width = number(tracks.bandwidth, 3);
-        format!("{}: {a} and {b} lie in one pass band of {width} orders", result.channel)
+    let mut texts: Vec<String> = Vec::new();
+    if let Some(tracks) = &found.tracks {
+        let orders: Vec<f64> = tracks.tracks.iter().map(|track| track.order).collect();
+        let text = |pair: [usize; 2]| {
+            let [a, b] = pair.map(|k| &found.cuts[k].0.label);
+            let width = number(tracks.bandwidth, 3);
+            format!("{}: {a} and {b} lie in one pass band of {width} orders", result.channel)
+        };
+        texts.extend(orders_in_one_band(&orders, tracks.bandwidth).into_iter().map(text));
+    }
+    texts.extend((0..found.cuts.len()).flat_map(|place| neighbour_warnings(result, found, place)));
+    texts
+}
+
+/// Warnings if a cut or its track reads the line of a shaft harmonic or of another cut.
+fn neighbour_warnings(result: &SignalResult, found: &ShaftOrders, place: usize) -> Vec<String> {
+    let own = &found.cuts[place].0;
+    let resolution = found.map.orders.get(1).copied().unwrap_or(1.0);
+    let highest = found.map.orders.last().map_or(0, |order| order.floor() as usize);
+    let mut others: Vec<f64> = found.cuts.iter().map(|(line, _)| line.order).collect();
+    others.extend(
+        (1..=highest)
+            .map(|order| order as f64)
+            .filter(|order| !found.cuts.iter().any(|c| c.0.order == *order)),
+    );
+    let label = |order: f64| {
+        let line = found.cuts.iter().find(|(line, _)| line.order == order);
+        line.map_or_else(|| format!("{order}x"), |(line, _)| line.label.clone())
     };
-    orders_in_one_band(&orders, tracks.bandwidth).into_iter().map(text).collect()
+    let channel = &result.channel;
+    let in_cut = found.map.neighbour_in_cut(&found.average, own.order, resolution, &others);
+    let cut_text = |Neighbour { order, read, part }: Neighbour| {
+        let apart = (order - own.order).abs();
+        format!(
+            "{channel}: of the RMS {} in the cut of {} about {} is the line of {}, {} orders beside it: the resolution of {} orders does \
+             not part them; --order-resolution {} does",
+            number(read, 3),
+            own.label,
+            number(part, 3),
+            label(order),
+            number(apart, 3),
+            number(resolution, 3),
+            number(0.3 * apart, 2)
+        )
+    };
+    let tracked = found.tracks.as_ref().and_then(|tracks| Some((tracks, tracks.tracks.get(place)?)));
+    let in_track = tracked.and_then(|(tracks, track)| {
+        // Orders that are tracked together are told apart by the filter.
+        let is_tracked = |order: &f64| tracks.tracks.iter().any(|track| track.order == *order);
+        let others: Vec<f64> = others.iter().copied().filter(|order| !is_tracked(order)).collect();
+        let squares: f64 = track.amplitude.iter().map(|a| 0.5 * a * a).sum();
+        let read = squares / track.amplitude.len().max(1) as f64;
+        let width = tracks.bandwidth;
+        let found = found.map.neighbour_in_track(&found.average, own.order, width, read, &others)?;
+        Some((width, found))
+    });
+    let track_text = |(width, Neighbour { order, read, part }): (f64, Neighbour)| {
+        let apart = (order - own.order).abs();
+        format!(
+            "{channel}: of the RMS {} tracked for {} about {} is the line of {}, {} orders beside it, which the bandwidth of {} orders lets \
+         through; --bandwidth {} does not, or track both",
+            number(read, 3),
+            own.label,
+            number(part, 3),
+            label(order),
+            number(apart, 3),
+            number(width, 3),
+            number(0.8 * apart, 2)
+        )
+    };
+    in_cut.map(cut_text).into_iter().chain(in_track.map(track_text)).collect()
 }
 
 /// A warning for every cut and track whose maximum its window or bandwidth lowers.

@@ -248,11 +248,13 @@ codes! {
          shorten the window (resolution, --resolution, --order-resolution) or widen --bandwidth";
     OrdersInOneBand, "orders-in-one-band", Caution,
         "Two orders that the Vold-Kalman filter tracks lie in one pass band: their amplitudes are told apart only as far as \
-         they change more slowly than the two beat.",
-        "narrow study.orders.bandwidth (or --bandwidth), as far as the amplitudes change slowly enough for it, or track one of the two";
+         they change more slowly than the two beat. Or what an order cut or track reads is the line of another order beside it.",
+        "narrow study.orders.bandwidth (or --bandwidth), as far as the amplitudes change slowly enough for it, or track one of the two; \
+         for a cut, a finer --order-resolution";
     TachoJitter, "tacho-jitter", Caution,
         "A tracked order lies beside a stronger one which the jitter of the tacho pulses modulates: part of what is read there is \
-         the stronger order's. Or jitter, as of a coarsely sampled tacho, lowers an order, or the pulses are aliased.",
+         the stronger order's. Or jitter, as of a coarsely sampled tacho, lowers an order, the pulses are aliased, or the marks are \
+         uneven or more than stated.",
         "sample the tacho channel faster, use more pulses per revolution, or narrow --bandwidth";
     FreeBalls, "free-balls", Caution,
         "A study of balls and cage as free bodies, or their comparison with a kinematic cage, could not be computed.",
@@ -286,8 +288,8 @@ codes! {
          low, and the steps at the ends of the gap excite the whole spectrum.",
         "restrict the record to one side of the gap with --time, or measure again";
     RecordSpike, "record-spike", Caution,
-        "Single samples of a measured channel are far from all others: an error of transmission or a loose contact. They \
-         govern peak, kurtosis and the spectrum at high frequencies.",
+        "Single samples of a measured channel, or samples of one value, are far from all others: an error of transmission, a loose \
+         contact, or a value that stands for missing samples. They govern peak, kurtosis and the spectrum at high frequencies.",
         "restrict the record with --time so that it is without them, or measure again";
     Identification, "identification", Caution,
         "Identified poles or shapes rest on hits that are left out or truncated, or on FRFs that are noisy, few or poorly fitted.",
