@@ -11,6 +11,7 @@ mod program;
 mod random;
 mod spoiled;
 mod study_codes;
+mod tacho;
 mod unusual;
 
 use rotordyn::model::{self, Diagnostic, Options};

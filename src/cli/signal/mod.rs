@@ -10,7 +10,9 @@ pub mod orders;
 pub mod record_speed;
 pub mod settings;
 pub mod shaft_source;
+mod shared_rate;
 mod tables;
+mod tacho_marks;
 
 use channel::analyse_channel;
 use std::f64::consts::TAU;

@@ -14,6 +14,7 @@ use rotordyn::warning::Code;
 use super::super::args::ShaftArgs;
 use super::super::terminal::number;
 use super::input::{File, InputProblems, plain_name};
+use super::{shared_rate, tacho_marks};
 
 /// Pulses on either side used to smooth tacho jitter, if requested.
 const SMOOTHING: usize = 4;
@@ -68,6 +69,8 @@ impl ShaftSource {
         } else if let Some(text) = &args.track {
             tracked_line(text, findings)
         } else {
+            let channel = stated_channel(file).and_then(|(record, ..)| shared_rate::warning(file, record));
+            channel.into_iter().for_each(|text| findings.warn_of(Code::MeasuredData, text));
             stated_in_file(file)
         };
         known.unwrap_or(ShaftSource::Unknown)
@@ -198,6 +201,8 @@ fn tacho(
         }
     };
     let (times, sampled_at) = pulse_times(record, rate, findings)?;
+    let assumed = own.filter(|_| sampled_at.is_some()).and_then(|record| shared_rate::warning(file, record));
+    assumed.into_iter().for_each(|text| findings.warn_of(Code::MeasuredData, text));
     if times.len() < 3 {
         findings.problem(format!(
             "--tacho: `{}` has {} pulses, at least 3 are needed for a speed; check that it is the tacho channel",
@@ -215,6 +220,8 @@ fn tacho(
             times.len()
         ));
     }
+    let marks = tacho_marks::warning(&times, &train, args.pulses_per_rev);
+    marks.into_iter().for_each(|text| findings.warn_of(Code::TachoJitter, text));
     for ([from, to], turns) in train.gaps() {
         findings.warn_of(
             Code::RecordGap,
@@ -273,7 +280,7 @@ fn tacho(
             );
         }
     }
-    let source = format!("{source}, {} per revolution", args.pulses_per_rev);
+    let source = format!("{source}, {}", tacho_marks::described(&train, args.pulses_per_rev));
     Some(ShaftSource::Pulses { train, per_revolution: args.pulses_per_rev, smoothing, source })
 }
 
@@ -333,12 +340,20 @@ fn pulse_times(
     Some((edges.into_iter().map(|t| t + start).collect(), Some(rate)))
 }
 
-/// Shaft angle, speed over time or constant speed stated in the file.
-pub fn stated_in_file(file: &File) -> Option<ShaftSource> {
+/// The channel of the shaft's angle or speed, its factor to rad or rad/s, and whether it is the angle.
+fn stated_channel(file: &File) -> Option<(&Record, f64, bool)> {
     let sampled = |unit: &str, names: &[&str]| {
         file.time_records().find(|r| r.unit == unit && names.contains(&plain_name(&r.name).as_str()))
     };
-    let of = |record: &Record, factor: f64, is_angle: bool| {
+    let names = ["speed", "rpm", "shaft_speed", "shaft speed"];
+    let angle = sampled("rad", &["theta", "angle", "shaft_angle"]).map(|r| (r, 1.0, true));
+    let speed = || sampled("rad/s", &names).map(|r| (r, 1.0, false));
+    angle.or_else(speed).or_else(|| sampled("rpm", &names).map(|r| (r, TAU / 60.0, false)))
+}
+
+/// Shaft angle, speed over time or constant speed stated in the file.
+pub fn stated_in_file(file: &File) -> Option<ShaftSource> {
+    let of = |(record, factor, is_angle): (&Record, f64, bool)| {
         let rate = record.sample_rate().ok()?;
         let start = match record.axis.points {
             Points::Uniform { start, .. } => start,
@@ -348,17 +363,13 @@ pub fn stated_in_file(file: &File) -> Option<ShaftSource> {
         let source = format!("channel `{}`", record.name);
         Some(ShaftSource::Sampled { values, rate, start, is_angle, source })
     };
-    let angle = sampled("rad", &["theta", "angle", "shaft_angle"]).and_then(|r| of(r, 1.0, true));
-    let names = ["speed", "rpm", "shaft_speed", "shaft speed"];
-    let speed = || sampled("rad/s", &names).and_then(|r| of(r, 1.0, false));
-    let rpm = || sampled("rpm", &names).and_then(|r| of(r, TAU / 60.0, false));
     let stated = || {
         let of_record = file.time_records().find_map(|r| r.speed_rpm);
         let scalar = |(name, value): &(String, f64)| name.to_lowercase().ends_with("rpm").then_some(*value);
         let rpm = of_record.or_else(|| file.measured.scalars.iter().find_map(scalar))?;
         (rpm > 0.0).then(|| ShaftSource::Steady(rpm / 60.0, "as the file states".into()))
     };
-    angle.or_else(speed).or_else(rpm).or_else(stated)
+    stated_channel(file).and_then(of).or_else(stated)
 }
 
 #[cfg(test)]
