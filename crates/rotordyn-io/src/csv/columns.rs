@@ -84,6 +84,12 @@ impl Column {
         Some((quantity(meaning.role), factor))
     }
 
+    /// Whether it has no unit of its own and is no axis or number of the file by its name.
+    pub fn may_have_unit(&self) -> bool {
+        let roles = [Role::Times, Role::Frequencies, Role::Rate, Role::Step, Role::Start, Role::Count];
+        self.stated.is_empty() && meaning(&self.name, &roles).is_none()
+    }
+
     /// The unit of an axis or a rate.
     fn axis_unit(&self) -> Option<SiUnit> {
         axis_units::si(&self.stated).or_else(|| self.si.clone())

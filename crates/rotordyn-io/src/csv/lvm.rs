@@ -56,7 +56,7 @@ struct Channel {
 pub(super) fn parse(text: &str, budget: &Budget) -> Result<MeasuredData, ContentProblem> {
     let mut lines = text.lines().enumerate().map(|(k, line)| (k + 1, line));
     let mut out = MeasuredData::default();
-    let mut comments = 0_usize;
+    let (mut comments, mut segments) = (0_usize, 0_usize);
     let header = file_header(&mut lines, &mut out);
     let style = TableStyle::new(header.separator, header.decimal_comma);
     let mut open: Vec<Channel> = Vec::new();
@@ -85,6 +85,7 @@ pub(super) fn parse(text: &str, budget: &Budget) -> Result<MeasuredData, Content
                 finish(&mut open, &mut out, budget)?;
                 let made = Plan::of(&cells, &rows, header.abscissas, budget)?;
                 open = made.channels(&cells, &rows);
+                segments += 1;
                 plan = Some(made);
                 rows.clear();
             }
@@ -100,6 +101,7 @@ pub(super) fn parse(text: &str, budget: &Budget) -> Result<MeasuredData, Content
         out.left_out.push("a header at the end, without numbers".into());
     }
     finish(&mut open, &mut out, budget)?;
+    name_packets(&mut out, segments);
     if out.records.is_empty() {
         return Err(ContentProblem::new(
             "the LabVIEW file contains no line of numbers behind a line `X_Value`",
@@ -139,7 +141,8 @@ fn file_header<'a>(lines: &mut impl Iterator<Item = (usize, &'a str)>, out: &mut
             "Description" | "Project" if out.title.is_empty() && !value.is_empty() => {
                 out.title = value.into()
             }
-            "Operator" | "Notes" | "Description" | "Project" if !value.is_empty() => {
+            // Who measured changes no number.
+            "Notes" | "Description" | "Project" if !value.is_empty() => {
                 out.left_out.push(format!("{} (text \"{}\")", key.trim(), snippet(value)));
             }
             _ => {}
@@ -315,7 +318,48 @@ fn finish(
     Ok(())
 }
 
+/// Notes channels of several packets that do not go on in one another: they stay channels of their own.
+fn name_packets(out: &mut MeasuredData, segments: usize) {
+    if segments < 2 {
+        return;
+    }
+    let mut counts: Vec<(&str, usize)> = Vec::new();
+    for record in &out.records {
+        match counts.iter_mut().find(|(name, _)| *name == record.name) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((&record.name, 1)),
+        }
+    }
+    let several: Vec<(&str, usize)> = counts.into_iter().filter(|(_, count)| *count > 1).collect();
+    let Some((first, count)) = several.first() else { return };
+    let more = if several.len() > 1 { " and others" } else { "" };
+    let note = format!(
+        "`{first}`{more} comes in {count} packets with a header each, whose times do not go on: each is a channel of its own, the \
+         second is `{first} (2)`"
+    );
+    out.notes.push(note);
+}
+
+/// Seconds of a day of a text `DATE HH:MM:SS.ffff` with milliseconds or finer, and its date.
+fn time_of_day(stamp: &str) -> Option<(&str, f64)> {
+    let (date, time) = stamp.rsplit_once(' ')?;
+    let time = time.replace(',', ".");
+    let mut parts = time.split(':');
+    let (hours, minutes) = (parts.next()?.parse::<f64>().ok()?, parts.next()?.parse::<f64>().ok()?);
+    let seconds = parts.next()?;
+    seconds.split_once('.').filter(|(_, digits)| digits.len() >= 3)?;
+    Some((date, 3600.0 * hours + 60.0 * minutes + seconds.parse::<f64>().ok()?))
+}
+
+/// Seconds from the start of one packet to that of another of the same day by their dates and times.
+fn seconds_between(first: &str, next: &str) -> Option<f64> {
+    let ((day, start), (its_day, end)) = (time_of_day(first)?, time_of_day(next)?);
+    (day == its_day).then_some(end - start)
+}
+
 /// Appends a record to the last one of its name, if it goes on where that ends; the record itself if not.
+///
+/// By its first abscissa, or, where that begins anew, by the date and time of its header.
 fn continued(record: Record, out: &mut MeasuredData) -> Option<Record> {
     let Some(last) = out.records.iter_mut().rev().find(|last| last.name == record.name) else {
         return Some(record);
@@ -326,7 +370,12 @@ fn continued(record: Record, out: &mut MeasuredData) -> Option<Record> {
         return Some(record);
     };
     let end = start + last.values.len() as f64 * step;
-    let goes_on = step == its && (next - end).abs() <= CONTINUES * step && last.file_unit == record.file_unit;
+    let by_clock = seconds_between(&last.date, &record.date).map(|passed| start + passed);
+    let begins_anew = *next == *start;
+    let at = if begins_anew { by_clock.unwrap_or(*next) } else { *next };
+    // Clocks are read to parts of a sample only.
+    let near = if begins_anew { 0.5 } else { CONTINUES };
+    let goes_on = step == its && (at - end).abs() <= near * step && last.file_unit == record.file_unit;
     match (&mut last.values, record.values) {
         (Values::Real(values), Values::Real(more)) if goes_on && last.axis.quantity == AxisQuantity::Time => {
             values.extend(more);

@@ -13,7 +13,7 @@ use std::path::Path;
 use super::columns::{Column, columns};
 use super::date_time::{Stamp, seconds};
 use super::encoding::decoded;
-use super::settings::stated;
+use super::settings::{stated, stated_unit};
 use super::style::TableStyle;
 use super::written_digits::Digits;
 use super::{decimal_sign, lvm, polar, table_axis};
@@ -21,6 +21,7 @@ use crate::budget::{self, Budget, Exceeded, Limits};
 use crate::error::{Error, snippet};
 use crate::measured::arrays::guess_kind;
 use crate::measured::content_problem::ContentProblem;
+use crate::measured::unit_label;
 use rotordyn_signal::Complex;
 use rotordyn_signal::record::{Axis, Kind, MeasuredData, Record, Values};
 
@@ -67,9 +68,9 @@ fn check_width(line: &str, budget: &Budget) -> Result<(), Exceeded> {
     cells.max().map_or(Ok(()), |most| budget.check_objects("columns", most))
 }
 
-/// Whether a line states a rate, a step or the decimal sign.
+/// Whether a line states a rate, a step, the decimal sign or a unit.
 fn is_setting(line: &str) -> bool {
-    stated(line).is_some() || decimal_sign::stated_sign(line).is_some()
+    stated(line).is_some() || decimal_sign::stated_sign(line).is_some() || stated_unit(line).is_some()
 }
 
 fn is_comment(line: &str) -> bool {
@@ -118,6 +119,12 @@ fn parse(
     budget.objects("columns", width)?;
     let (mut columns, used) = columns(&header_lines, last_comment, style, width, stem);
     let nameless = used.lines.is_empty() && !used.comment;
+    if let Some(unit) = before.iter().find_map(|line| stated_unit(line)) {
+        let first = usize::from(nameless && columns.len() > 1);
+        for column in columns.iter_mut().skip(first).filter(|column| column.may_have_unit()) {
+            (column.stated, column.si) = (unit.to_owned(), unit_label::si(unit));
+        }
+    }
 
     // The first column of a table without names may be the times.
     if let Some(first) = columns.first_mut().filter(|_| nameless) {

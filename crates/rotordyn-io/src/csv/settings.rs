@@ -4,6 +4,7 @@ use super::columns::column;
 use crate::measured::axis_names::{Meaning, Role, meaning};
 use crate::measured::axis_units;
 use crate::measured::stated_value::{Written, stated_value};
+use crate::measured::unit_label;
 
 /// Longest line that states something \[bytes\].
 const MAX_LINE: usize = 200;
@@ -38,6 +39,15 @@ pub(super) fn stated(line: &str) -> Option<Setting> {
     Some(Setting { meaning, name: key.name, value, unknown_unit })
 }
 
+/// The unit that a line states for the columns, `# unit: g`.
+pub(super) fn stated_unit(line: &str) -> Option<&str> {
+    let line = line.trim_start_matches(['#', '%', '/', ' ', '\t', '"']);
+    let (key, value) = line.split_once([':', '='])?;
+    let value = value.trim_matches([' ', '\t', ';', ',', '"', '[', ']']);
+    let is_unit = ["unit", "units", "einheit"].iter().any(|name| key.trim().eq_ignore_ascii_case(name));
+    (is_unit && unit_label::si(value).is_some()).then_some(value)
+}
+
 fn is_text(label: &str) -> bool {
     label.contains(' ') && !label.contains('/')
 }
@@ -46,6 +56,16 @@ fn is_text(label: &str) -> bool {
 mod tests {
     use super::*;
     use crate::measured::axis_names::StatedRate;
+
+    #[test]
+    fn lines_that_state_a_unit() {
+        for line in ["# unit: g", "Unit = g", "% units: [g]", "Einheit: g"] {
+            assert_eq!(stated_unit(line), Some("g"), "{line}");
+        }
+        for line in ["unit", "unit: 3", "unit: apples", "g", "force unit: N"] {
+            assert_eq!(stated_unit(line), None, "{line}");
+        }
+    }
 
     #[test]
     fn lines_that_state_a_rate() {

@@ -1,6 +1,7 @@
 //! Records from the named arrays of .mat, .npz and HDF5 files.
 //!
-//! `name_unit`, `name_fs` and the like describe the array `name`, as `record_arrays` writes them. Arrays of other programs
+//! `name_unit`, `name_fs` and the like describe the array `name`, as `record_arrays` writes them, and `fs_name`, `nameRate`
+//! and other names of an axis with it (`own_axes`). Arrays of other programs
 //! are interpreted by name (`axis_names`): `fs`, `dt`, `time`, `frequency`; complex values over frequency are FRFs; names
 //! that begin with `coh` are coherence; a scalar that ends in `RPM` is the speed of the records with the same prefix.
 //! H\[i, j, line\] becomes one record for each response i + 1 and reference j + 1. Arrays of a structure, `bearing.gs`, have
@@ -9,9 +10,10 @@
 use std::collections::HashMap;
 
 pub use super::array::{Array, Data};
+use super::array_names::last_name;
 use super::axis_names::{Role, six_digits};
 use super::content_problem::ContentProblem;
-use super::structures::{Axes, AxisList, Structures, last_name};
+use super::structures::{Axes, AxisList, Structures};
 use super::{coherence_names, ramps, signal_calc, unit_label};
 use crate::budget::Budget;
 use crate::error::snippet;
@@ -40,7 +42,8 @@ pub(crate) fn to_records(
     }
     for (place, array) in arrays.iter().enumerate() {
         let is_record = array.data.len() > 1 && !matches!(array.data, Data::Text(_));
-        if is_record && !file.structures.is_axis_list(place) && !file.is_attribute(&array.name) {
+        let is_axis = file.structures.is_axis_list(place) || file.structures.is_own_axis(place);
+        if is_record && !is_axis && !file.is_attribute(&array.name) {
             file.records(array, budget, &mut out)?;
         }
     }
@@ -198,6 +201,8 @@ impl<'a> File<'a> {
                 Ok((Axis::from_points(AxisQuantity::Time, list.to_vec()), stated_by("t")))
             } else if let Some(list) = own_list("freq_hz").filter(fits) {
                 Ok((Axis::from_points(AxisQuantity::Frequency, list.to_vec()), stated_by("freq_hz")))
+            } else if let Some(own) = self.structures.own_axis(array) {
+                Ok(own)
             } else {
                 self.structures.axis(axes, count, is_time)
             }

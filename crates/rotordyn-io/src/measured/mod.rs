@@ -11,6 +11,7 @@
 //! | HDF5 | .h5 .hdf5, .mat v7.3, results.h5 | .h5 | records |
 
 pub(crate) mod array;
+mod array_names;
 pub mod arrays;
 pub(crate) mod axis_names;
 pub(crate) mod axis_units;
@@ -26,6 +27,7 @@ pub mod mapping;
 pub(crate) mod name_unit;
 #[cfg(feature = "hdf5")]
 pub mod operating_run;
+mod own_axes;
 pub mod ramps;
 mod record_arrays;
 pub mod run_up;

@@ -7,23 +7,15 @@ use std::cell::RefCell;
 use std::collections::{HashMap, HashSet};
 
 use super::array::{Array, Data};
-use super::axis_names::{Meaning, Role, StatedRate, check_same, meaning, six_digits};
+use super::array_names::{last_name, meaning_of, structure_of};
+use super::axis_names::{Meaning, Role, StatedRate, check_same, six_digits};
 use super::axis_units;
 use super::content_problem::ContentProblem;
+use super::own_axes::OwnAxes;
 use crate::budget::MAX_DEPTH;
 use rotordyn_signal::record::{Axis, AxisQuantity, Points};
 
 const UNITS: [&str; 4] = ["unit", "units", "unit_string", "y_unit_label"];
-
-/// Structure of a path, `bearing` of `bearing.gs`; "" for none.
-pub(super) fn structure_of(name: &str) -> &str {
-    name.rsplit_once('.').map_or("", |(structure, _)| structure)
-}
-
-/// Name without the structure's path.
-pub(super) fn last_name(name: &str) -> &str {
-    name.rsplit_once('.').map_or(name, |(_, last)| last)
-}
 
 /// The arrays of a file.
 pub(super) struct Structures<'a> {
@@ -40,6 +32,8 @@ pub(super) struct Structures<'a> {
     of_other_units: HashSet<usize>,
     /// Place of the unit of an array that states an axis.
     axis_units: HashMap<usize, usize>,
+    /// Axes of single arrays, by names of both.
+    own: OwnAxes,
     /// Places of the arrays that have been taken as axis, unit or title.
     used: RefCell<HashSet<usize>>,
     given_rate: Option<f64>,
@@ -84,6 +78,7 @@ impl<'a> Structures<'a> {
             records: HashMap::new(),
             of_other_units: HashSet::new(),
             axis_units: HashMap::new(),
+            own: OwnAxes::default(),
             used: RefCell::default(),
             given_rate,
             notes: RefCell::default(),
@@ -99,6 +94,7 @@ impl<'a> Structures<'a> {
                 *found.records.entry(structure).or_default() += 1;
             }
         }
+        found.own = OwnAxes::of(arrays, &found.places);
         found.convert_axes()?;
         for stated in found.stated.values_mut() {
             // Of `t` and `T` the second may be a temperature.
@@ -183,6 +179,33 @@ impl<'a> Structures<'a> {
         array.data.len() > 1
             && meaning_of(array, last_name(&array.name)).is_some()
             && !self.of_other_units.contains(&place)
+    }
+
+    /// Whether the name of an array is that of another one with the name of an axis, as `fs_tacho` of `tacho`.
+    pub fn is_own_axis(&self, place: usize) -> bool {
+        self.own.states(place)
+    }
+
+    /// The axis that is stated for one array by the names of both, and what states it.
+    pub fn own_axis(&self, array: &Array) -> Option<(Axis, String)> {
+        let place = *self.places.get(array.name.as_str())?;
+        let source = |at: usize| {
+            self.use_array(at);
+            format!("`{}`", self.arrays[at].name)
+        };
+        if let Some((meaning, at)) = self.own.stated(place, &[Role::Rate, Role::Step]) {
+            let (value, _) = self.arrays[at].as_stated()?;
+            let stated = StatedRate::of(&meaning, &self.arrays[at].name, value)?;
+            let start = self.own.stated(place, &[Role::Start]).and_then(|(meaning, at)| {
+                self.use_array(at);
+                Some(meaning.in_si(self.arrays[at].as_stated()?.0))
+            });
+            let axis = Axis::uniform(AxisQuantity::Time, start.unwrap_or(0.0), stated.step);
+            return Some((axis, source(at)));
+        }
+        let (meaning, at) = self.own.stated(place, &[Role::Times])?;
+        let points = self.arrays[at].as_list()?.iter().map(|t| meaning.in_si(*t)).collect();
+        Some((Axis::from_points(AxisQuantity::Time, points), source(at)))
     }
 
     /// What holds for the records of an array.
@@ -341,25 +364,6 @@ impl AxisList<'_> {
         let si = |v: &f64| if numerator == divisor { *v } else { v * numerator / divisor };
         Axis::from_points(self.quantity, self.values.iter().map(si).collect())
     }
-}
-
-/// What an array states of an axis by its name and form: a number, or a list that increases.
-fn meaning_of(array: &Array, last: &str) -> Option<Meaning> {
-    if let Some((value, si)) = array.as_stated() {
-        let mut meaning = meaning(last, &[Role::Rate, Role::Step, Role::Start, Role::Count])?;
-        if let Some(si) = si {
-            // The unit beside the number wins over that of the name.
-            (meaning.numerator, meaning.divisor) = meaning.role.factor(&si)?;
-        }
-        let possible = match meaning.role {
-            Role::Rate | Role::Step => StatedRate::of(&meaning, last, value).is_some(),
-            _ => value.is_finite(),
-        };
-        return possible.then_some(meaning);
-    }
-    let list = array.as_list()?;
-    let meaning = meaning(last, &[Role::Times, Role::Frequencies])?;
-    list.windows(2).all(|pair| pair[0] < pair[1]).then_some(meaning)
 }
 
 /// Whether a value is no rate and no list.

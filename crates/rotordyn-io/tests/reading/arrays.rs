@@ -163,3 +163,41 @@ fn packed_integers_and_empty_data_sets_of_hdf5() {
     assert!(found.scalars.is_empty(), "{:?}", found.scalars);
     assert_eq!(found.left_out, ["/e (empty)"]);
 }
+
+/// A rate, a step or times beside the name of a channel hold for it alone, in whichever order the two names stand.
+#[test]
+fn a_rate_with_the_name_of_a_channel_is_its_own() {
+    let slow: Vec<f64> = vibrations().into_iter().step_by(10).collect();
+    let times: Vec<f64> = (0..slow.len()).map(|k| 0.5 + 0.01 * k as f64).collect();
+    let channels =
+        [Array::real("acc", vibrations()), Array::scalar("fs", 1000.0), Array::real("tacho", slow)];
+    let own = [
+        Array::scalar("fs_tacho", 100.0),
+        Array::scalar("tacho_fs", 100.0),
+        Array::scalar("sr_tacho", 100.0),
+        Array::scalar("tachoRate", 100.0),
+        Array::scalar("rateTacho", 100.0),
+        Array::scalar("tacho_dt", 0.01),
+        Array::scalar("SampleRate_tacho", 100.0),
+        Array::text("fs_tacho", "0.1 kHz"),
+        Array::real("t_tacho", times.clone()),
+        Array::real("tacho_time", times),
+    ];
+    for stated in own {
+        let found = read_mat(&[&channels[..], &[stated.clone()]].concat(), None).unwrap();
+        assert_eq!(names(&found), ["acc", "tacho"], "{}", stated.name);
+        assert_eq!(rate(&found, "acc"), 1000.0, "{}", stated.name);
+        assert!((rate(&found, "tacho") - 100.0).abs() < 1e-9, "{}", stated.name);
+        assert!(found.scalars.is_empty() && found.left_out.is_empty(), "{found:?}");
+    }
+    // Each has its own, and of a name that is no channel's nothing is taken.
+    let each = [
+        &channels[..1],
+        &channels[2..],
+        &[Array::scalar("fs_acc", 1000.0), Array::scalar("fs_tacho", 100.0)],
+    ];
+    let found = read_mat(&each.concat(), None).unwrap();
+    assert_eq!((rate(&found, "acc"), rate(&found, "tacho")), (1000.0, 100.0));
+    let found = read_mat(&[&channels[..], &[Array::scalar("fs_pump", 100.0)]].concat(), None).unwrap();
+    assert_eq!((rate(&found, "tacho"), found.scalars.len()), (1000.0, 1));
+}

@@ -260,3 +260,51 @@ fn plain_numbers_and_directions_stay_what_they_are() {
     let found = read("t.csv", text.as_bytes(), Some(1000.0)).unwrap();
     assert!(found.records.iter().all(|record| values(&found, &record.name)[5] >= 5.0));
 }
+
+#[test]
+fn a_line_with_a_unit_is_no_name() {
+    let found = read(
+        "pump.csv",
+        table("# Sampling rate: 5 kHz\n# unit: g\n", |_, x| format!("{x:.5}")).as_bytes(),
+        None,
+    );
+    let found = found.unwrap();
+    assert_eq!((names(&found), rate(&found, "pump")), (vec!["pump"], 5000.0));
+    assert_eq!((found.records[0].file_unit.as_str(), found.records[0].unit.as_str()), ("g", "m/s^2"));
+    assert!(found.left_out.is_empty(), "{:?}", found.left_out);
+    let found =
+        table_of("# unit: mm/s\ntime,a,b [g]\n", |k, x| format!("{},{x:.5},{x:.5}", 0.001 * k as f64));
+    let units: Vec<&str> = found.records.iter().map(|record| record.file_unit.as_str()).collect();
+    assert_eq!((names(&found), units), (vec!["a", "b"], vec!["mm/s", "g"]));
+}
+
+/// Two packets of a LabVIEW file with a header each: by the first abscissa, by the clock, and with neither.
+#[test]
+fn packets_of_a_labview_file_are_joined_or_named() {
+    let file = |[start, next]: [&str; 2], x0: f64| {
+        let packet = |from: usize, time: &str, x0: f64| {
+            let numbers: String = (from..from + 100).map(|k| format!("\t{:.5}\n", vibration(k))).collect();
+            format!(
+                "Channels\t1\nSamples\t100\nDate\t2024/01/01\nTime\t{time}\nY_Unit_Label\tg\nX_Dimension\tTime\nX0\t{x0}\n\
+                 Delta_X\t0.001\n***End_of_Header***\t\nX_Value\tAcc\tComment\n{numbers}\n"
+            )
+        };
+        let head = "LabVIEW Measurement\t\nSeparator\tTab\nDecimal_Separator\t.\nX_Columns\tNo\nOperator\tme\n***End_of_Header***\t\n\t\n";
+        let text = format!("{head}{}{}", packet(0, start, 0.0), packet(100, next, x0));
+        read("p.lvm", text.as_bytes(), None).unwrap()
+    };
+    let same = ["10:00:00.0000"; 2];
+    for found in [file(same, 0.1), file(["10:00:00.0000", "10:00:00.1001"], 0.0)] {
+        assert_eq!((names(&found), values(&found, "Acc").len()), (vec!["Acc"], 200));
+        assert!(found.notes.is_empty() && found.left_out.is_empty(), "{found:?}");
+    }
+    for times in [same, ["10:00:00", "10:00:00"], ["10:00:00.0000", "10:00:03.0000"]] {
+        let found = file(times, 0.0);
+        assert_eq!(names(&found), ["Acc", "Acc (2)"]);
+        assert!(
+            found.notes.iter().any(|note| note.starts_with("`Acc` comes in 2 packets")),
+            "{:?}",
+            found.notes
+        );
+    }
+}
