@@ -118,6 +118,27 @@ impl LineSpectrum {
         evidence[bin].max(evidence[bin + 1])
     }
 
+    /// Frequency of the maximum up the slope from the bin nearest to a frequency, at most `reach` bins off; `None` if there
+    /// is none.
+    ///
+    /// Between bins by a parabola through the logarithms, which is what a line behind a Hann window is.
+    pub fn top_near(&self, frequency: f64, reach: usize) -> Option<f64> {
+        let start = (frequency / self.step).round() as usize;
+        let a = &self.amplitude;
+        let inside = |k: usize| k >= 2 && k + 2 < a.len();
+        let mut bin = start;
+        while inside(bin) && a[bin - 1].max(a[bin + 1]) > a[bin] {
+            bin = if a[bin + 1] > a[bin - 1] { bin + 1 } else { bin - 1 };
+        }
+        if !inside(bin) || bin.abs_diff(start) > reach {
+            return None;
+        }
+        let [low, top, high] = [bin - 1, bin, bin + 1].map(|k| a[k].max(f64::MIN_POSITIVE).ln());
+        let curvature = low - 2.0 * top + high;
+        let shift = if curvature < 0.0 { 0.5 * (low - high) / curvature } else { 0.0 };
+        Some((bin as f64 + shift) * self.step)
+    }
+
     /// Highest bin within ± `reach` of a frequency: frequency and amplitude; `None` outside the spectrum.
     pub fn highest(&self, frequency: f64, reach: f64) -> Option<(f64, f64)> {
         let first = ((frequency - reach) / self.step).ceil().max(2.0) as usize;

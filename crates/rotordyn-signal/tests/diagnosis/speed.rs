@@ -145,6 +145,44 @@ fn even_harmonics_alone_are_those_of_twice_the_speed() {
     }
 }
 
+/// Strong lines at 1x and 2x alone confirm a speed, as near to mains as 59.9 Hz.
+#[test]
+fn two_strong_lines_confirm_a_speed() {
+    let speed = 29.95;
+    for number in 0..20 {
+        let random = &mut Random::of_record(41, number);
+        let lines = [(speed, 0.8, random.phase()), (2.0 * speed, 0.4, random.phase())];
+        let record = sum(&tones(&lines), &white(random), 0.3);
+        let found = shaft_speed(&record, RATE, speed, 0.02, Some(&bearing(speed))).unwrap();
+        let SpeedFinding::Found(found) = found else { panic!("{number}: {found:?}") };
+        assert!((found.speed - speed).abs() < 4.0 * found.uncertainty && found.harmonics == 2, "{found:?}");
+    }
+}
+
+/// Hum at 100 Hz beside 2x of 49.3 rev/s, and hum at 50 and 100 Hz, which are 2x and 4x of 25 rev/s, with 24.7 stated: the
+/// shaft's own lines tell the speed.
+#[test]
+fn hum_beside_shaft_harmonics_hides_no_speed() {
+    for number in 0..20 {
+        let random = &mut Random::of_record(43, number);
+        let (speed, hum) = if number % 2 == 0 { (49.3, [0.0, 0.5]) } else { (24.7, [0.15, 0.3]) };
+        let mut lines: Vec<_> = [1.0, 0.4, 0.2]
+            .iter()
+            .enumerate()
+            .map(|(k, level)| ((k + 1) as f64 * speed, level * 0.5, random.phase()))
+            .collect();
+        lines.extend([(50.0, hum[0], random.phase()), (100.0, hum[1], random.phase())]);
+        let mut record = sum(&tones(&lines), &white(random), 0.3);
+        record.truncate(RATE as usize * if number % 4 == 0 { 2 } else { 5 });
+        // Of an 8-ball bearing whose BPFO is 75 Hz at 24.7 rev/s.
+        let [cage, outer, inner, ball] = [0.37957, 3.03658, 4.96342, 1.95551].map(|order| order * speed);
+        let rates = DefectFrequencies { shaft: speed, cage, outer, inner, ball };
+        let found = shaft_speed(&record, RATE, speed, 0.02, Some(&rates)).unwrap();
+        let SpeedFinding::Found(found) = found else { panic!("{number}: {found:?}") };
+        assert!((found.speed / speed - 1.0).abs() < 1e-3, "{number}: {found:?}");
+    }
+}
+
 /// Noise has no shaft family: none of 40 records (a false family in one of 1000).
 #[test]
 fn noise_has_no_speed() {
