@@ -16,6 +16,7 @@ use super::grading::{BandGrading, Finding, GradedDiagnosis, machine_tones};
 use super::kurtogram::{BandChoice, Kurtogram, fast_kurtogram};
 use super::resample::{AngleResampler, SAMPLES_PER_ORDER};
 use super::spectrum::{Level, Spectrum, amplitude_spectrum};
+use super::statistics::statistics;
 use super::window::WindowKind;
 
 /// Speed below which the shaft counts as at standstill \[rev/s\].
@@ -36,6 +37,16 @@ pub enum BandRule {
 
 /// 10/ln 10: evidence, a power ratio, in dB.
 const DB_PER_NEPER_OF_EVIDENCE: f64 = 4.342944819032518;
+
+/// Bands that are judged if none is named in that of the most evidence, the probability from which one of them names a
+/// part, and the common share of two bands from which they say the same.
+const MORE_BANDS: usize = 4;
+const SURE_ELSEWHERE: f64 = 0.97;
+const SAME_BAND: f64 = 0.5;
+
+/// Kurtosis of Gaussian noise, below which a record is smooth, and harmonics of the ball passage that make it so.
+const SMOOTH_KURTOSIS: f64 = 3.0;
+const PASSAGE_HARMONICS: usize = 10;
 
 /// Shaft rotation during the record.
 #[derive(Clone, Copy, Debug)]
@@ -141,6 +152,20 @@ pub fn diagnose(
     };
     let (mut spectrum, mut graded) = graded_in(band)?;
     let mut band = band;
+    if let Some(scores) = kurtogram.as_ref().filter(|_| chosen && graded.part().is_none()) {
+        // What explains the best band by something else does not hide a fault in another, but what explains its lines there
+        // explains them everywhere.
+        let mut rivals = graded.rivals.clone();
+        for other in next_best(scores, band) {
+            let (other_spectrum, found) = graded_in(other)?;
+            let step = other_spectrum.frequencies[1];
+            let is_rivals = rivals.iter().any(|rival| rival.is_family_of(found.frequency, step));
+            rivals.extend(&found.rivals);
+            if found.probability >= SURE_ELSEWHERE && graded.probability < found.probability && !is_rivals {
+                (band, spectrum, graded) = (other, other_spectrum, found);
+            }
+        }
+    }
     if chosen && graded.finding == Finding::NoFault {
         // No band has lines of the bearing: the whole record shows what else repeats.
         let (whole, other) = graded_in((0.0, half))?;
@@ -154,10 +179,31 @@ pub fn diagnose(
             };
         }
     }
+    if graded.part() == Some(BearingPart::OuterRace) && matches!(rotation, ShaftRotation::ConstantSpeed) {
+        graded.smooth_ball_pass = is_smooth_ball_pass(record, sample_rate, graded.frequency)?;
+    }
     let strict = LineSettings { significance: settings.significance / tried as f64, ..*settings };
     let mut lines = bearing_lines(&spectrum, rates, &strict)?;
     lines.diagnosis = graded.part();
     Ok(Diagnosis { band, kurtogram, envelope: spectrum, lines, graded })
+}
+
+/// The bands of the next highest scores that have less than half in common with the best and with each other.
+fn next_best(scores: &Kurtogram, best: (f64, f64)) -> Vec<(f64, f64)> {
+    let mut ranked: Vec<BandChoice> = scores.bands().collect();
+    ranked.sort_by(|a, b| b.value.total_cmp(&a.value));
+    let same = |a: &(f64, f64), b: (f64, f64)| {
+        let common = (a.1.min(b.1) - a.0.max(b.0)).max(0.0);
+        common >= SAME_BAND * (a.1.max(b.1) - a.0.min(b.0))
+    };
+    let mut taken = vec![best];
+    for choice in ranked {
+        let band = (choice.low, choice.high);
+        if taken.len() <= MORE_BANDS && !taken.iter().any(|t| same(t, band)) {
+            taken.push(band);
+        }
+    }
+    taken.split_off(1)
 }
 
 /// Demodulation band, kurtogram it was chosen by, and envelope spectrum.
@@ -208,6 +254,29 @@ fn envelope(record: &[f64], sample_rate: f64, band: (f64, f64)) -> Result<Vec<f6
     let signal =
         if whole { analytic_signal(record)? } else { band_analytic_signal(record, sample_rate, band)? };
     Ok(signal.iter().map(|z| z.norm()).collect())
+}
+
+/// Whether a record is a smooth vibration at the rate of the ball passage: kurtosis below that of noise, and most of its
+/// power in the first harmonics of that rate \[Hz\].
+///
+/// Balls that pass through the load change the stiffness at BPFO (variable compliance) and shake a sound bearing so;
+/// impacts of a damaged race have their power at the resonances that they excite.
+fn is_smooth_ball_pass(record: &[f64], sample_rate: f64, rate: f64) -> Result<bool, SignalError> {
+    let spectrum = amplitude_spectrum(record, sample_rate, WindowKind::Hann, Level::Peak)?;
+    let step = spectrum.frequencies[1];
+    // The first two bins hold the mean.
+    let power = |bins: std::ops::Range<usize>| {
+        let inside = bins.start.max(2)..bins.end.min(spectrum.values.len());
+        spectrum.values.get(inside).unwrap_or(&[]).iter().map(|a| a * a).sum::<f64>()
+    };
+    let about = |harmonic: usize| {
+        let place = harmonic as f64 * rate / step;
+        let reach = 3.0 + 1e-3 * place;
+        power((place - reach).max(1.0) as usize..(place + reach) as usize + 1)
+    };
+    let of_passage = (1..=PASSAGE_HARMONICS).map(about).sum::<f64>();
+    let smooth = statistics(record)?.kurtosis.is_some_and(|kurtosis| kurtosis < SMOOTH_KURTOSIS);
+    Ok(smooth && of_passage > 0.5 * power(2..spectrum.values.len()))
 }
 
 /// Score of each band of 1, 2, 3, 4, 6, 8 … 2^depth equal parts of 0..half.

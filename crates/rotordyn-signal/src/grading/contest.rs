@@ -36,6 +36,8 @@ const MOST: f64 = 12.0;
 /// What one envelope spectrum says: the best part, what competes with it.
 pub(super) struct Contest {
     pub winner: PartFit,
+    /// The other parts.
+    pub others: Vec<PartFit>,
     /// Rivals of the winner: families among the lines that are not its own.
     pub rivals: Vec<Rival>,
     pub features: Features,
@@ -56,8 +58,13 @@ pub(super) fn contest(
     let known = &spectrum.known;
     let mut fits = BearingPart::ALL.map(|part| PartFit::new(spectrum, part, rates, settings));
     let cage = fits[BearingPart::Cage as usize].clone();
+    let is_cage_foreign = cage.is_beside_foreign_line(spectrum, rates, settings.slip);
+    if is_cage_foreign {
+        // What stands near FTF is another rate, and so is what stands beside a ball's lines at its distance.
+        fits[BearingPart::Ball as usize].leave_cage(rates);
+    }
     let rises = rises_at_ball(&fits[BearingPart::Ball as usize], &cage, spectrum);
-    let rivals: Vec<Vec<Rival>> = fits
+    let mut rivals: Vec<Vec<Rival>> = fits
         .iter_mut()
         .map(|fit| {
             let rivals = rivals_of(fit, spectrum, rates, hz_per_unit);
@@ -81,16 +88,19 @@ pub(super) fn contest(
         .collect();
     let own = fits.each_ref().map(|fit| fit.own_evidence());
     let ball = own[BearingPart::Ball as usize];
+    // Lines of a ball at higher multiples of FTF say another rate than FTF itself, which is its modulation all the same.
+    let modulation = if is_cage_foreign { 0.0 } else { own[BearingPart::Cage as usize] };
     let strength = fits.each_ref().map(|fit| match fit.part {
         // FTF is the modulation of the ball's impacts: it counts for the ball, not against it.
         BearingPart::Ball if ball > BALL_EVIDENCE && side_bands(fit, 4) > 0 && (rises || !cage.is_comb()) => {
-            ball + own[BearingPart::Cage as usize]
+            ball + modulation
         }
         BearingPart::Ball => WITHOUT_SIDE_BANDS * ball,
         part => own[part as usize],
     });
     let best = (0..fits.len()).max_by(|&a, &b| strength[a].total_cmp(&strength[b])).unwrap_or(0);
-    let others = || (0..fits.len()).filter(|k| *k != best);
+    let count = fits.len();
+    let others = || (0..count).filter(|k| *k != best);
     let runner_up = others()
         .map(|k| match fits[best].part {
             // Every line near a multiple of FTF could be the cage's.
@@ -105,9 +115,19 @@ pub(super) fn contest(
     let ambiguity =
         others().filter(|k| fits[*k].part != BearingPart::Cage).map(|k| own[k]).fold(0.0, f64::max);
     let unresolved = unresolved(spectrum, rates, settings, known);
-    let cage_evidence = own[BearingPart::Cage as usize];
-    let contenders =
-        Contenders { best: &fits[best], rivals: &rivals[best], runner_up, ambiguity, cage_evidence };
+    if fits[best].is_foreign {
+        // It stood in the contest for its source, which others' lines may be of; none of its lines is the part's.
+        fits[best].lines.iter_mut().for_each(|line| line.own = false);
+        let free: Vec<LinePeak> = spectrum.free_peaks().copied().collect();
+        rivals[best] = find_rivals(&free, rates.shaft, hz_per_unit, step, |_| false);
+    }
+    let contenders = Contenders {
+        best: &fits[best],
+        rivals: &rivals[best],
+        runner_up,
+        ambiguity,
+        cage_evidence: modulation,
+    };
     let features = features(&contenders, spectrum, known);
     // FTF alone is in every band that a ball's impacts reach: a cage is to show its many harmonics.
     let few = match fits[best].part {
@@ -116,7 +136,8 @@ pub(super) fn contest(
     };
     let score = own[best].ln_1p().min(MOST) - (3.0 * features[FEATURES.unexplained] - 3.0).max(0.0) - few;
     let (winner, rivals) = (fits[best].clone(), rivals[best].clone());
-    Contest { winner, rivals, features, score, unresolved }
+    let others = others().map(|k| fits[k].clone()).collect();
+    Contest { winner, others, rivals, features, score, unresolved }
 }
 
 /// Families that the peaks beside a part's own lines support.

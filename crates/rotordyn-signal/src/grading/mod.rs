@@ -4,7 +4,8 @@
 //! side bands of the shaft speed for the inner race, of FTF for balls) are fitted to the envelope spectrum. A
 //! line is a family's own if shaft, mains, a cage with many harmonics, or a family of any other rate that the remaining
 //! peaks support do not explain it as well, and if it stands in the envelope without the lines of shaft and mains that
-//! the band holds: two of these beat at their difference (`machine_tones.rs`). Two logistic regressions for each part
+//! the band holds: two of these beat at their difference (`machine_tones.rs`). A family whose lines show a rate beyond the
+//! slip and what they resolve is of another source (`part_fit.rs`). Two logistic regressions for each part
 //! on the features of the best family, either of which suffices (`grade.rs`), give the probability that its part is the
 //! damaged one; three of the features are the joint evidence of its lines in the spectrum of the squared envelope
 //! (`joint.rs`). The coefficients have the signs that mechanics asks for, and it stays below 99.5 %: another source may
@@ -42,6 +43,7 @@
 
 mod contest;
 mod features;
+mod further;
 mod grade;
 mod joint;
 mod line_spectrum;
@@ -58,6 +60,7 @@ use serde::{Deserialize, Serialize};
 use super::bearing_lines::{BearingPart, DefectFrequencies, LineSettings};
 use super::spectrum::Spectrum;
 use contest::{Contest, contest};
+use further::further_parts;
 use grade::FEATURES;
 pub use grade::{
     COEFFICIENTS, FEATURE_COUNT, Features, MOST_CERTAIN, PartCoefficients, REGRESSIONS, probability,
@@ -71,6 +74,9 @@ use rivals::find_rivals;
 pub use shaft_speed::{RecordSpeed, SpeedFinding, shaft_speed};
 use strong_lines::strong_lines;
 pub use strong_lines::{Explanation, StrongLine};
+
+/// What is added where the record is a smooth vibration at BPFO.
+const VARIABLE_COMPLIANCE: &str = "; the record is a smooth vibration at BPFO: balls that pass the load (variable compliance) may be its cause";
 
 /// Probability from which a part is named.
 const NAMED: f64 = 0.5;
@@ -104,6 +110,12 @@ pub struct GradedDiagnosis {
     pub frequency: f64,
     /// Probability that the candidate is the damaged part.
     pub probability: f64,
+    /// Other parts with lines of their own beside a named one, the strongest first.
+    #[serde(default)]
+    pub further: Vec<BearingPart>,
+    /// Whether the record is a smooth vibration at BPFO, which a sound bearing has by variable compliance.
+    #[serde(default)]
+    pub smooth_ball_pass: bool,
     /// What the probability was computed from.
     pub features: Features,
     /// Other families in the spectrum.
@@ -121,12 +133,21 @@ impl GradedDiagnosis {
         }
     }
 
-    /// "outer race, 98 %", "no bearing fault", "periodic at 12.42 Hz, no line of this bearing" or "cannot tell: …".
+    /// "outer race, 98 %", "outer race, 98 %; further candidate: inner race", "no bearing fault", "periodic at 12.42 Hz, no line of this bearing" or "cannot tell: …".
     ///
     /// `unit`: "Hz", or "x" for orders.
     pub fn statement(&self, unit: &str) -> String {
         match self.finding {
-            Finding::Part(part) => format!("{}, {}", part.name(), percent(self.probability)),
+            Finding::Part(part) => {
+                let further =
+                    self.further.iter().map(|other| format!("; further candidate: {}", other.name()));
+                let further: String = further.collect();
+                let smooth = match part {
+                    BearingPart::OuterRace if self.smooth_ball_pass => VARIABLE_COMPLIANCE,
+                    _ => "",
+                };
+                format!("{}, {}{further}{smooth}", part.name(), percent(self.probability))
+            }
             Finding::NoFault => "no bearing fault".into(),
             Finding::Periodic(rate) => {
                 format!("periodic at {} {unit}, no line of this bearing", significant(rate))
@@ -226,7 +247,7 @@ impl BandGrading {
         rates: &DefectFrequencies,
         by_evidence: bool,
     ) -> GradedDiagnosis {
-        let Contest { winner, rivals, unresolved, .. } = &self.contest;
+        let Contest { winner, others, rivals, unresolved, .. } = &self.contest;
         let mut features = self.contest.features;
         features[FEATURES.given_band] = f64::from(!by_evidence);
         let known = &self.spectrum.known;
@@ -245,11 +266,12 @@ impl BandGrading {
         let rivals = &if probability >= MENTIONED { rivals.clone() } else { every() };
         let step = self.spectrum.step;
         let free = rivals.iter().filter(|r| r.kind == RivalKind::Periodic && r.is_resolved(step));
-        let line_at = |rate: f64| {
-            let reach = |line: f64| self.slip * line + self.spectrum.step;
+        let line_at = |rival: &Rival| {
+            // What its highest harmonic resolves.
+            let reach = |line: f64| self.slip * line + self.spectrum.step / rival.highest.max(1) as f64;
             let near = |part: &BearingPart| {
                 let line = part.defect_frequency(rates);
-                (rate - line).abs() <= reach(line)
+                (rival.rate - line).abs() <= reach(line)
             };
             BearingPart::ALL.into_iter().find(near)
         };
@@ -259,21 +281,26 @@ impl BandGrading {
                 Finding::Unresolved { part: *part, frequency: *frequency, rival: *rival }
             }
             _ if probability >= MENTIONED => Finding::Uncertain(winner.part),
-            (None, Some(rival)) => match line_at(rival.rate) {
+            (None, Some(rival)) => match line_at(rival) {
                 Some(part) => Finding::Uncertain(part),
                 None => Finding::Periodic(rival.rate),
             },
             (None, None) => Finding::NoFault,
         };
-        let named = (probability >= MENTIONED).then_some(winner);
+        let mut named = Vec::from_iter((probability >= MENTIONED).then_some(winner));
+        if matches!(finding, Finding::Part(_)) {
+            named.extend(further_parts(winner, others, &self.spectrum, rates.shaft));
+        }
         GradedDiagnosis {
             finding,
             candidate: winner.part,
             frequency: winner.base,
             probability,
+            further: named.iter().skip(1).map(|fit| fit.part).collect(),
+            smooth_ball_pass: false,
             features,
             rivals: rivals.clone(),
-            strong_lines: strong_lines(&self.spectrum, named, rivals, rates.shaft),
+            strong_lines: strong_lines(&self.spectrum, &named, rivals, rates.shaft),
         }
     }
 }

@@ -15,6 +15,20 @@ const NOISE_EVIDENCE: f64 = 4.0;
 /// Evidence from which a line of a family at a known place counts as present.
 pub(super) const PRESENT: f64 = 7.0;
 
+/// Evidence of one line that counts fully in the measured rate.
+const RATE_EVIDENCE: f64 = 12.0;
+/// Bins between a fitted place and the top of its line, and bins by which a top may be off.
+const TOP_REACH: usize = 2;
+const TOP_ERROR: f64 = 0.5;
+/// The same of a clear line, to which noise adds by the root of its evidence; share of a rate times 1 + h by which
+/// wander moves what harmonic h says.
+const SHARP_ERROR: f64 = 0.15;
+const INCONSISTENT: f64 = 2e-3;
+/// Bins beyond the slip in which a line is looked for that may be taken for the first harmonic.
+const BESIDE: f64 = 3.0;
+/// Relative error of a mean rate whose intervals jitter by 2 %, over two hundred of them.
+const RATE_WANDER: f64 = 1.5e-3;
+
 /// Harmonics of FTF among the first eight that make a cage: a ball's load modulation gives up to five.
 const COMB: usize = 6;
 
@@ -36,6 +50,11 @@ impl FittedLine {
     pub fn stands(&self) -> bool {
         self.evidence + NOISE_EVIDENCE > PRESENT
     }
+
+    /// How far off the rate is that the top of this harmonic says: noise moves it the less the more the line stands.
+    fn rate_error(&self, step: f64) -> f64 {
+        step * (SHARP_ERROR + self.evidence.sqrt().recip()) / self.harmonic as f64
+    }
 }
 
 /// A part's family at the rate that fits best.
@@ -47,6 +66,10 @@ pub(super) struct PartFit {
     /// Fitted FTF (balls), else the nominal.
     pub cage: f64,
     pub lines: Vec<FittedLine>,
+    /// Whether its lines are at a rate that slip does not explain: those of another source.
+    pub is_foreign: bool,
+    /// Whether the lines beside its harmonics are not at the distance of FTF.
+    pub without_cage: bool,
 }
 
 /// Offsets of the side bands that a part's load modulation gives.
@@ -120,7 +143,7 @@ impl PartFit {
             }
         }
         let (_, base, cage) = best;
-        let lines = (1..=harmonics)
+        let lines: Vec<FittedLine> = (1..=harmonics)
             .flat_map(|harmonic| {
                 let modulations = std::iter::once(None).chain(side.iter().map(|m| Some(*m)));
                 modulations.filter_map(move |modulation| {
@@ -135,7 +158,88 @@ impl PartFit {
                 })
             })
             .collect();
-        PartFit { part, base, cage, lines }
+        let mut fit = PartFit { part, base, cage, lines, is_foreign: false, without_cage: false };
+        fit.is_foreign = fit.is_beyond_slip(spectrum, rates, settings.slip)
+            || part == BearingPart::Cage && fit.has_inconsistent_first_lines(spectrum);
+        fit
+    }
+
+    /// Counts nothing beside its harmonics: what stands there is not at the distance of FTF.
+    pub fn leave_cage(&mut self, rates: &DefectFrequencies) {
+        self.without_cage = true;
+        self.cage = rates.cage;
+        self.lines.iter_mut().filter(|l| l.modulation.is_some()).for_each(|l| l.evidence = 0.0);
+    }
+
+    /// Whether the first two of its harmonics, those that stand, each say another rate than most of its lines do.
+    ///
+    /// For the cage: where a bin is some percent of the rate, lines of several origins fit one comb.
+    fn has_inconsistent_first_lines(&self, spectrum: &LineSpectrum) -> bool {
+        let Some(rate) = weighted_median(self.measured_rates(spectrum)) else { return false };
+        self.first_lines_all(spectrum, |measured, line| {
+            let allowed = line.rate_error(spectrum.step) + INCONSISTENT * (1.0 + line.harmonic as f64) * rate;
+            (measured - rate).abs() > allowed
+        })
+    }
+
+    /// Whether the highest line near its rate is beyond the slip.
+    ///
+    /// Of a cage beside a ball, whose lines may be near higher multiples of FTF: what modulates them then is no cage.
+    pub fn is_beside_foreign_line(
+        &self,
+        spectrum: &LineSpectrum,
+        rates: &DefectFrequencies,
+        slip: f64,
+    ) -> bool {
+        let expected = self.part.defect_frequency(rates);
+        let step = spectrum.step;
+        let Some((near, _)) = spectrum.highest(expected, slip * expected + BESIDE * step) else {
+            return false;
+        };
+        let evidence = spectrum.evidence(near) - NOISE_EVIDENCE;
+        let Some(top) = spectrum.top_near(near, 1).filter(|_| evidence > PRESENT) else { return false };
+        let allowed = (slip + RATE_WANDER) * expected + step * (SHARP_ERROR + evidence.sqrt().recip());
+        (top - expected).abs() > allowed && !spectrum.known.contains(near)
+    }
+
+    /// Whether what the first two harmonics that stand say of the rate is so of each; not without any.
+    fn first_lines_all(&self, spectrum: &LineSpectrum, is_so: impl Fn(f64, &FittedLine) -> bool) -> bool {
+        let first: Vec<&FittedLine> = self.standing(spectrum).filter(|l| l.harmonic <= 2).collect();
+        let so = |l: &&FittedLine| {
+            let order = l.harmonic as f64;
+            let top = spectrum.top_near(order * self.base, TOP_REACH);
+            top.is_some_and(|top| is_so(top / order, l))
+        };
+        !first.is_empty() && first.iter().all(so)
+    }
+
+    /// Rates that the tops of its standing harmonics say, with their weights.
+    fn measured_rates(&self, spectrum: &LineSpectrum) -> Vec<(f64, f64)> {
+        let rate = |l: &FittedLine| {
+            let order = l.harmonic as f64;
+            let top = spectrum.top_near(order * self.base, TOP_REACH)?;
+            Some((top / order, l.evidence.min(RATE_EVIDENCE)))
+        };
+        self.standing(spectrum).filter_map(rate).collect()
+    }
+
+    /// Its standing harmonics that are none of shaft or mains.
+    fn standing<'a>(&'a self, spectrum: &'a LineSpectrum) -> impl Iterator<Item = &'a FittedLine> {
+        let main = self.main_lines().filter(|l| l.evidence > PRESENT);
+        main.filter(|l| spectrum.known.origin(l.frequency).is_none())
+    }
+
+    /// Whether the rate that its lines show is farther from the expected one than slip, and what their highest harmonic
+    /// resolves, explain.
+    ///
+    /// The search goes half a bin beyond the slip, which is much of a slow rate: FTF over 4 s is known to 1 % by its first
+    /// harmonic and to 0.1 % by the twelfth.
+    fn is_beyond_slip(&self, spectrum: &LineSpectrum, rates: &DefectFrequencies, slip: f64) -> bool {
+        let expected = self.part.defect_frequency(rates);
+        let Some(measured) = weighted_median(self.measured_rates(spectrum)) else { return false };
+        let highest = self.standing(spectrum).map(|l| l.harmonic).max().unwrap_or(1) as f64;
+        let allowed = (slip + RATE_WANDER) * expected + TOP_ERROR * spectrum.step / highest;
+        (measured - expected).abs() > allowed
     }
 
     /// Whether a frequency is a line of the family, with the side bands that its kind may have.
@@ -151,10 +255,13 @@ impl PartFit {
             BearingPart::Ball => (0.5 * self.base, self.cage, 5),
             BearingPart::Cage => return near_multiple(frequency, self.base, 40, near),
         };
+        let carries = |offset: f64| near_multiple(frequency - offset, base, 3 * HARMONICS, near);
+        if self.without_cage {
+            return carries(0.0);
+        }
         if self.part == BearingPart::Ball && near_multiple(frequency, self.cage, 6, near) {
             return true;
         }
-        let carries = |offset: f64| near_multiple(frequency - offset, base, 3 * HARMONICS, near);
         let other = if self.part == BearingPart::Ball { shaft } else { self.cage };
         let by_other = |n: i32| carries(f64::from(n) * other);
         (-count..=count).any(|n| carries(f64::from(n) * side)) || (-2..=2).any(by_other)
@@ -207,6 +314,20 @@ impl PartFit {
         let own = self.lines.iter().filter(|l| l.own && l.evidence > 0.0);
         own.map(|l| l.amplitude).fold(0.0, f64::max)
     }
+}
+
+/// The value that half of the weight lies on either side of; `None` of none.
+fn weighted_median(mut values: Vec<(f64, f64)>) -> Option<f64> {
+    values.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let half = 0.5 * values.iter().map(|(_, weight)| weight).sum::<f64>();
+    let mut sum = 0.0;
+    values
+        .into_iter()
+        .find(|(_, weight)| {
+            sum += weight;
+            sum >= half
+        })
+        .map(|(value, _)| value)
 }
 
 /// Evidence that counts in the fit of the rate.

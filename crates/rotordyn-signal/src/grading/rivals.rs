@@ -63,6 +63,12 @@ impl Rival {
         2.0 * tolerance(self.kind, self.rate, step) <= DENSE * self.rate
     }
 
+    /// Whether `frequency` is a multiple of its free rate, which is not so low that any frequency is.
+    pub(crate) fn is_family_of(&self, frequency: f64, step: f64) -> bool {
+        let near = tolerance(self.kind, frequency, step);
+        self.kind == RivalKind::Periodic && 2.0 * near <= DENSE * self.rate && self.explains(frequency, step)
+    }
+
     /// Whether it explains a line of this amplitude: a free family also needs comparable harmonics beside it.
     ///
     /// The lines h f + n f_r of a damaged part lie near the multiples of a fraction of f_r wherever f/f_r is

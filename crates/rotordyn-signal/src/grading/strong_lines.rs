@@ -40,17 +40,17 @@ pub struct StrongLine {
     pub explanation: Explanation,
 }
 
-/// Peaks down to a tenth of the highest, with the family that explains each.
+/// Peaks down to a tenth of the highest, with the family that explains each; `parts`: those named, the first foremost.
 pub(super) fn strong_lines(
     spectrum: &LineSpectrum,
-    part: Option<&PartFit>,
+    parts: &[&PartFit],
     rivals: &[Rival],
     shaft: f64,
 ) -> Vec<StrongLine> {
     let step = spectrum.step;
     let highest = spectrum.peaks.first().map_or(0.0, |p| p.amplitude);
     let explain = |frequency: f64| {
-        if let Some(fit) = part.filter(|fit| fit.explains(frequency, shaft, step)) {
+        if let Some(fit) = parts.iter().find(|fit| fit.explains(frequency, shaft, step)) {
             return Explanation::Bearing(fit.part);
         }
         let order = (frequency / shaft).round();

@@ -2,11 +2,13 @@
 
 mod baseline;
 mod basic;
+mod belts;
 mod calibration;
 mod clock;
 mod faults;
 mod fit;
 mod generator;
+mod hum;
 mod motors;
 mod others;
 mod path;

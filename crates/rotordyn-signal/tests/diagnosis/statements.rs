@@ -2,11 +2,11 @@
 
 use rotordyn_signal::bearing_lines::{BearingPart, DefectFrequencies, LineSettings};
 use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, diagnose};
-use rotordyn_signal::grading::{Explanation, Finding, GradedDiagnosis, RivalKind};
+use rotordyn_signal::grading::{Explanation, Finding, GradedDiagnosis, RivalKind, StrongLine};
 
 use super::RATE;
 use super::clock::Clock;
-use super::path::{TransferPath, arrivals, scaled_to, sum, white};
+use super::path::{TransferPath, arrivals, scaled_to, sum, tones, white};
 use super::random::Random;
 
 /// A 6205 at 30 rev/s: FTF 11.95, BPFO 107.5, BPFI 162.5, 2 BSF 141.4 Hz.
@@ -148,4 +148,53 @@ fn ball_and_cage_are_told_apart() {
     assert_eq!(found.part(), Some(BearingPart::Ball), "{found:?}");
     let found = graded(&record(52, 5.0, RATES.cage, 0.001, |_| 1.0), &RATES);
     assert_eq!(found.part(), Some(BearingPart::Cage), "{found:?}");
+}
+
+/// Damaged outer and inner race: the weaker is named as a further candidate and its lines are the bearing's. Of a single
+/// fault nothing more is said.
+#[test]
+fn two_damaged_races_are_both_named() {
+    let turn = std::f64::consts::TAU * RATES.shaft;
+    let in_load_zone = move |t: f64| (0.3 + 0.7 * (turn * t).cos()).max(0.0);
+    for seed in 81..85 {
+        let outer = record(seed, 5.0, RATES.outer, 0.001, |_| 1.0);
+        let inner = record(seed, 5.0, RATES.inner, 0.001, in_load_zone);
+        let found = graded(&sum(&outer, &inner, 0.8), &RATES);
+        let words = found.statement("Hz");
+        let further: Vec<BearingPart> = found.part().into_iter().chain(found.further.clone()).collect();
+        assert!(further.len() == 2 && words.contains("; further candidate: "), "{seed}: {words}");
+        assert!(further.contains(&BearingPart::OuterRace) && further.contains(&BearingPart::InnerRace));
+        let is_of_race = |l: &&StrongLine| {
+            let inner =
+                (1..=3).flat_map(|h| (-2..=2).map(move |m| f64::from(h) * RATES.inner + f64::from(m) * 30.0));
+            inner
+                .chain((1..=3).map(|h| f64::from(h) * RATES.outer))
+                .any(|place| (l.frequency - place).abs() < 0.4)
+        };
+        let foreign =
+            |l: &&StrongLine| matches!(l.explanation, Explanation::Periodic(_) | Explanation::Unexplained);
+        let listed: Vec<_> = found.strong_lines.iter().filter(foreign).filter(is_of_race).collect();
+        assert!(listed.is_empty(), "{seed}: {listed:?}");
+        for single in [outer, inner] {
+            let found = graded(&single, &RATES);
+            assert!(found.part().is_some() && found.further.is_empty(), "{seed}: {}", found.statement("Hz"));
+        }
+    }
+}
+
+/// A smooth vibration at the ball passage, 40 dB over what repeats at it in any band: variable compliance may be its cause.
+/// Not so where impacts are as strong as it.
+#[test]
+fn smooth_ball_passage_has_a_caveat() {
+    for (seed, level, caveat) in [(91, 0.01, true), (92, 0.01, true), (93, 3.0, false), (94, 3.0, false)] {
+        let random = &mut Random::of_record(seed, 0);
+        let lines: Vec<_> = [(1, 0.3), (3, 0.5), (7, 1.0)]
+            .map(|(n, amplitude)| (f64::from(n) * RATES.outer, amplitude, random.phase()))
+            .into();
+        let impacts = record(seed, 40.0, RATES.outer, 0.0, |_| 1.0);
+        let impacts = scaled_to(impacts, level * level);
+        let found = graded(&sum(&tones(&lines), &impacts, 1.0), &RATES);
+        assert_eq!(found.part(), Some(BearingPart::OuterRace), "{seed}: {found:?}");
+        assert_eq!(found.statement("Hz").contains("variable compliance"), caveat, "{seed}: {found:?}");
+    }
 }
