@@ -131,14 +131,16 @@ impl Fit {
         Ok(Findings { frf_scale: self.frf_scale(), ..terminal.unless_stopped(found)? })
     }
 
-    /// Common scale of the FRFs, if they are fitted. The model before has not taken it into its parameters yet; that after
-    /// may be nearer.
+    /// Common scale of the FRFs, if they are fitted, by the model that shows it more clearly. That before has not taken it into its
+    /// parameters yet; that after may be nearer.
     fn frf_scale(&self) -> Option<FrfScale> {
         let band = self.fitting.frf?.band;
-        self.correlations().iter().find_map(|stage| {
+        let stages = self.correlations();
+        let found = stages.iter().filter_map(|stage| {
             let (measured, computed) = stage.measured_and_computed()?;
             common_scale(measured, computed, band)
-        })
+        });
+        found.min_by(|a, b| a.spread.total_cmp(&b.spread))
     }
 
     /// The measurement beside the model before and after.

@@ -184,7 +184,7 @@ fn a_rate_with_the_name_of_a_channel_is_its_own() {
         Array::real("tacho_time", times),
     ];
     for stated in own {
-        let found = read_mat(&[&channels[..], &[stated.clone()]].concat(), None).unwrap();
+        let found = read_mat(&[&channels[..], std::slice::from_ref(&stated)].concat(), None).unwrap();
         assert_eq!(names(&found), ["acc", "tacho"], "{}", stated.name);
         assert_eq!(rate(&found, "acc"), 1000.0, "{}", stated.name);
         assert!((rate(&found, "tacho") - 100.0).abs() < 1e-9, "{}", stated.name);

@@ -67,7 +67,7 @@ impl Marks {
         let real = (per_revolution as f64 / long).round() as usize;
         let candidates = [real, per_revolution];
         let wheel = |marks: usize| {
-            if marks < LEAST_TEETH || marks > MOST_MARKS || marks > counts {
+            if !(LEAST_TEETH..=MOST_MARKS).contains(&marks) || marks > counts {
                 return None;
             }
             let found = pattern(times, marks)?;
