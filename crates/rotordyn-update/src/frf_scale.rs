@@ -20,8 +20,8 @@ const MIN_FRFS: f64 = 0.9;
 const MIN_SCALE: f64 = 0.588;
 /// Relative difference of a scale from the ratio of two units up to which the units are its likely cause.
 const UNIT_TOLERANCE: f64 = 0.06;
-/// The same as a part of the spread of the lines.
-const UNIT_TOLERANCE_OF_SPREAD: f64 = 0.3;
+/// The same for a scale from medians alone: no two causes are nearer than a factor of 2.
+const ROUGH_UNIT_TOLERANCE: f64 = 0.22;
 
 /// |ln| of a scale from which no model that resembles the machine explains it: a factor of 5.
 const FAR: f64 = 1.609;
@@ -75,7 +75,7 @@ pub struct FrfScale {
 impl FrfScale {
     /// Units that would give the ratio, if known ones do.
     pub fn unit_cause(&self) -> Option<&'static str> {
-        let tolerance = UNIT_TOLERANCE.max(UNIT_TOLERANCE_OF_SPREAD * self.spread);
+        let tolerance = if self.spread < NEAR { UNIT_TOLERANCE } else { ROUGH_UNIT_TOLERANCE };
         let near = |of: f64| (self.ratio / of).ln().abs() < tolerance;
         let usual = |of: Option<Quantity>| of.is_none_or(|of| of == self.stated);
         UNITS.iter().find(|(of, quantity, _)| near(*of) && usual(*quantity)).map(|(_, _, cause)| *cause)
@@ -308,10 +308,10 @@ mod tests {
         };
         let scale = found(&|_| 9.806_65).unwrap();
         assert!((scale.ratio / 9.806_65).ln().abs() < 0.2, "{scale:?}");
-        assert!(scale.advice().contains("m/s^2 that are read as g"), "{}", scale.advice());
+        assert!(scale.advice().contains("m/s^2 that are read as g"), "{scale:?}: {}", scale.advice());
         let scale = found(&|f| (TAU * f).powi(-2)).unwrap();
         assert_eq!(scale.quantity, Some(Quantity::Displacement), "{scale:?}");
-        assert_eq!(found(&|_| 2.5), None);
+        assert_eq!(found(&|_| 1.7), None);
     }
 
     #[test]

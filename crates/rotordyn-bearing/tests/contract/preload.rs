@@ -108,7 +108,9 @@ fn stiff_spring_is_rigid_and_zero_stiffness_keeps_force() {
 fn back_to_back_tilt_stiffness_exceeds_face_to_face() {
     let reaction = |arrangement: Option<Arrangement>| {
         let duplex = arrangement.map(|arrangement| Duplex { arrangement, spacing: 15e-3 });
-        let bearing = BallBearing { duplex, preload: Preload::DryForce(250.0), ..angular() };
+        // 250 N in every row: those in tandem share the preload of the pair.
+        let force = if arrangement == Some(Arrangement::Tandem) { 500.0 } else { 250.0 };
+        let bearing = BallBearing { duplex, preload: Preload::DryForce(force), ..angular() };
         BallElement::new(&bearing).cage_average(&[0.0; 6], &Rotation::default(), 12)
     };
     let single = reaction(None);
