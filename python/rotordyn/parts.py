@@ -1359,7 +1359,8 @@ class BallBearing(Part):
         Hertz. Stiffness of each contact, instead of Hertz. Without it: Hertz.
     ``lubricant`` (name of a lubricant): Oil of the film, of the friction torque and of the rating life.
         Without it: the only one of the file, for a film.
-    ``preload`` (table): Axial preload in the direction of thrust, in one of five forms.
+    ``preload`` (table): Axial preload in the direction of thrust, in one of five forms; rows in tandem share
+        it.
     ``fit`` (table): Fits of the rings, their temperatures and growth, which change the clearance.
     ``arrangement`` ("back_to_back", "face_to_face", "tandem"): Duplex pair of angular contact bearings.
     ``row_spacing`` (length, greater than zero): Distance of the two rows, of a pair in any arrangement.
@@ -1709,7 +1710,8 @@ class FreeBallBearing(Part):
         Hertz. Stiffness of each contact, instead of Hertz. Without it: Hertz.
     ``lubricant`` (name of a lubricant): Oil of the film, of the friction torque and of the rating life.
         Without it: the only one of the file, for a film.
-    ``preload`` (table): Axial preload in the direction of thrust, in one of five forms.
+    ``preload`` (table): Axial preload in the direction of thrust, in one of five forms; rows in tandem share
+        it.
     ``fit`` (table): Fits of the rings, their temperatures and growth, which change the clearance.
     ``inner_waviness`` (list of tables or table): A harmonic of waviness. Waviness as a spectrum over the
         order n, with random phases.
