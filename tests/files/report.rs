@@ -27,6 +27,8 @@ fn all_figures_are_drawn_reproducibly() {
         "frf_rim",
         "frf_rim_rotation",
         "frf_housing_B",
+        "unbalance_bode_acceleration",
+        "unbalance_polar_acceleration",
         "unbalance_bode_displacement",
         "unbalance_polar_displacement",
         "unbalance_orbits",

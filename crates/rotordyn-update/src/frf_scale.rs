@@ -23,8 +23,8 @@ const UNIT_TOLERANCE: f64 = 0.06;
 /// The same for a scale from medians alone: no two causes are nearer than a factor of 2.
 const ROUGH_UNIT_TOLERANCE: f64 = 0.22;
 
-/// |ln| of a scale from which no model that resembles the machine explains it: a factor of 5.
-const FAR: f64 = 1.609;
+/// |ln| of a scale from which no model that resembles the machine explains it: a factor of 4.
+const FAR: f64 = 1.386;
 /// Difference of the median of an FRF from so large a scale, and median difference of all lines, up to which the FRFs have it:
 /// 5 dB, and FRFs that it takes.
 const NEAR_FAR: f64 = 0.58;
@@ -125,7 +125,7 @@ impl FrfScale {
 ///
 /// Half of the lines of all FRFs and the medians of 90 % of the FRFs are within 2 dB of it. FRFs that are zero in the model are
 /// left out. It may be taken of a model whose resonances are a few per cent off: most lines are beside them. Of a model farther off
-/// only a factor of 5 or more is found, by the medians of four or more FRFs.
+/// only a factor of 4 or more is found, by the medians of four or more FRFs.
 pub fn common_scale(
     measured: &TargetFrfs,
     computed: &[Vec<Vec<Complex64>>],

@@ -327,7 +327,7 @@ impl Display for ExceededLimit {
             Self::LostContactAngle { nominal, mean, displacement } => write!(
                 f,
                 "the inner ring slides {:.0} um axially, and the balls carry at {:.1} deg instead of {:.0} deg: a \
-                 single row with a contact angle needs an axial load or preload",
+                 bearing that takes thrust one way needs an axial load or preload",
                 1e6 * displacement.abs(),
                 mean.to_degrees(),
                 nominal.to_degrees()

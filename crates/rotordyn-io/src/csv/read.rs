@@ -13,7 +13,7 @@ use std::path::Path;
 use super::columns::{Column, columns};
 use super::date_time::{Stamp, seconds};
 use super::encoding::decoded;
-use super::settings::{stated, stated_unit};
+use super::settings::{stated, unit_of_line};
 use super::style::TableStyle;
 use super::written_digits::Digits;
 use super::{decimal_sign, lvm, polar, table_axis};
@@ -70,7 +70,7 @@ fn check_width(line: &str, budget: &Budget) -> Result<(), Exceeded> {
 
 /// Whether a line states a rate, a step, the decimal sign or a unit.
 fn is_setting(line: &str) -> bool {
-    stated(line).is_some() || decimal_sign::stated_sign(line).is_some() || stated_unit(line).is_some()
+    stated(line).is_some() || decimal_sign::stated_sign(line).is_some() || unit_of_line(line).is_some()
 }
 
 fn is_comment(line: &str) -> bool {
@@ -119,7 +119,7 @@ fn parse(
     budget.objects("columns", width)?;
     let (mut columns, used) = columns(&header_lines, last_comment, style, width, stem);
     let nameless = used.lines.is_empty() && !used.comment;
-    if let Some(unit) = before.iter().find_map(|line| stated_unit(line)) {
+    if let Some(unit) = before.iter().find_map(|line| unit_of_line(line)) {
         let first = usize::from(nameless && columns.len() > 1);
         for column in columns.iter_mut().skip(first).filter(|column| column.may_have_unit()) {
             (column.stated, column.si) = (unit.to_owned(), unit_label::si(unit));

@@ -40,7 +40,7 @@ pub(super) fn stated(line: &str) -> Option<Setting> {
 }
 
 /// The unit that a line states for the columns, `# unit: g`.
-pub(super) fn stated_unit(line: &str) -> Option<&str> {
+pub(super) fn unit_of_line(line: &str) -> Option<&str> {
     let line = line.trim_start_matches(['#', '%', '/', ' ', '\t', '"']);
     let (key, value) = line.split_once([':', '='])?;
     let value = value.trim_matches([' ', '\t', ';', ',', '"', '[', ']']);
@@ -60,10 +60,10 @@ mod tests {
     #[test]
     fn lines_that_state_a_unit() {
         for line in ["# unit: g", "Unit = g", "% units: [g]", "Einheit: g"] {
-            assert_eq!(stated_unit(line), Some("g"), "{line}");
+            assert_eq!(unit_of_line(line), Some("g"), "{line}");
         }
         for line in ["unit", "unit: 3", "unit: apples", "g", "force unit: N"] {
-            assert_eq!(stated_unit(line), None, "{line}");
+            assert_eq!(unit_of_line(line), None, "{line}");
         }
     }
 
