@@ -1,24 +1,14 @@
 //! Belts and other drives whose rate is near FTF, but farther off than the cage slips.
 
 use rayon::prelude::*;
-use rotordyn_signal::bearing_lines::{BearingPart, DefectFrequencies, LineSettings};
-use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, diagnose};
+use rotordyn_signal::bearing_lines::{BearingPart, LineSettings};
 use rotordyn_signal::grading::GradedDiagnosis;
 
 use super::RATE;
+use super::bearing_6309::{self, RATES, SHAFT};
 use super::clock::Clock;
 use super::path::{TransferPath, arrivals, scaled_to, sum, tones, white};
 use super::random::Random;
-
-/// A 6309 at 24.7 rev/s: FTF 0.3796, BPFO 3.0366, BPFI 4.9634, BSF 1.9554 orders.
-const SHAFT: f64 = 24.7;
-const RATES: DefectFrequencies = DefectFrequencies {
-    shaft: SHAFT,
-    cage: 0.37957 * SHAFT,
-    outer: 3.03658 * SHAFT,
-    inner: 4.96342 * SHAFT,
-    ball: 1.95551 * SHAFT,
-};
 
 /// Impacts at each passage of a belt, its first four harmonics as lines of an amplitude, the shaft's, and noise.
 fn belt(number: usize, rate: f64, tone: f64) -> Vec<f64> {
@@ -33,8 +23,7 @@ fn belt(number: usize, rate: f64, tone: f64) -> Vec<f64> {
 }
 
 fn graded(record: &[f64], slip: f64) -> GradedDiagnosis {
-    let settings = LineSettings { slip, ..LineSettings::default() };
-    diagnose(record, RATE, ShaftRotation::ConstantSpeed, &RATES, BandRule::Lines, &settings).unwrap().graded
+    bearing_6309::graded(record, RATE, &LineSettings { slip, ..LineSettings::default() })
 }
 
 /// 2.6 to 4 % beside FTF, either way, which slip does not explain: of 24 none is named a cage, at most one a ball, whose 2 BSF

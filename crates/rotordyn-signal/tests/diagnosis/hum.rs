@@ -3,21 +3,10 @@
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
-use rotordyn_signal::bearing_lines::{BearingPart, DefectFrequencies, LineSettings};
-use rotordyn_signal::diagnosis::{BandRule, ShaftRotation, diagnose};
-use rotordyn_signal::grading::GradedDiagnosis;
+use rotordyn_signal::bearing_lines::{BearingPart, LineSettings};
 
+use super::bearing_6309::{RATES, SHAFT, graded};
 use super::random::Random;
-
-/// A 6309 at 24.7 rev/s.
-const SHAFT: f64 = 24.7;
-const RATES: DefectFrequencies = DefectFrequencies {
-    shaft: SHAFT,
-    cage: 0.37957 * SHAFT,
-    outer: 3.03658 * SHAFT,
-    inner: 4.96342 * SHAFT,
-    ball: 1.95551 * SHAFT,
-};
 
 /// A record of a motor: 1x to 3x, hum at 50 and 100 Hz, noise, and a ringing of 900 Hz after each impact of a part, in the
 /// load zone by the turns of what carries it.
@@ -57,11 +46,6 @@ fn motor(seed: u64, part: Option<BearingPart>, rate: f64, seconds: f64) -> Vec<f
     out
 }
 
-fn graded(record: &[f64], rate: f64) -> GradedDiagnosis {
-    let settings = LineSettings::default();
-    diagnose(record, rate, ShaftRotation::ConstantSpeed, &RATES, BandRule::Lines, &settings).unwrap().graded
-}
-
 /// The beats of hum and shaft are the strongest lines below 400 Hz, the fault is at 900 Hz: all of 8 are found, though in
 /// the band of the beats there is none; of 4 motors without a fault none is named.
 #[test]
@@ -69,7 +53,7 @@ fn beats_of_hum_hide_no_fault() {
     let parts = [Some(BearingPart::InnerRace), Some(BearingPart::Ball), None];
     let of = |number: usize| {
         let part = parts[number % 3];
-        let found = graded(&motor((number / 3) as u64, part, 5000.0, 10.0), 5000.0);
+        let found = graded(&motor((number / 3) as u64, part, 5000.0, 10.0), 5000.0, &LineSettings::default());
         (part, found.part(), found.statement("Hz"))
     };
     let found: Vec<_> = (0..12usize).into_par_iter().map(of).collect();

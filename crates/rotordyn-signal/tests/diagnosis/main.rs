@@ -2,6 +2,7 @@
 
 mod baseline;
 mod basic;
+mod bearing_6309;
 mod belts;
 mod calibration;
 mod clock;
